@@ -1,0 +1,185 @@
+//! What can be wrong with a scheme's description.
+
+use crate::Site;
+
+/// Why a scheme, a parameter or a scheme file is refused. Every variant carries the offending numbers; the message of a
+/// range error ends with the accepted range.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A vertex or face needs at least three sectors.
+    #[error("valence {valence} is out of range: accepted are 3 and above")]
+    Valence {
+        /// What was given.
+        valence: usize,
+    },
+    /// The subdominant eigenvalue lies between the outer rings' largest eigenvalue and 1.
+    #[error("lambda = {lambda} is out of range: accepted is 0.125 < lambda < 1")]
+    Lambda {
+        /// What was given.
+        lambda: f64,
+    },
+    /// `mu = s lambda^2` must lie between `lambda^2` and `lambda`.
+    #[error("s = {s} is out of range: accepted is 1 <= s < {} = 1/lambda", 1.0 / lambda)]
+    Relaxation {
+        /// What was given.
+        s: f64,
+        /// The lambda it was given for.
+        lambda: f64,
+    },
+    /// A regular rule reaches across the centre, where the plane has no unique continuation.
+    #[error(
+        "the rule of ({}, {}) reads ({x}, {y}) across the centre: points that near to it need a stencil of their own",
+        site.x, site.y
+    )]
+    AcrossCentre {
+        /// The point that is made.
+        site: Site,
+        /// Where its rule reads, in half steps along the sector's spokes.
+        x: i32,
+        /// See `x`.
+        y: i32,
+    },
+    /// A rule reads a point outside the given control net.
+    #[error("point ({}, {}) lies beyond the {rings} rings of the net", site.x, site.y)]
+    BeyondNet {
+        /// The point that is read.
+        site: Site,
+        /// The rings there are.
+        rings: usize,
+    },
+    /// Fourier indices count from 0 to N-1.
+    #[error("Fourier index {index} is out of range: accepted are 0 to {}", valence - 1)]
+    FourierIndex {
+        /// What was given.
+        index: usize,
+        /// The number of sectors.
+        valence: usize,
+    },
+    /// No ring is closed under refinement.
+    #[error("no control net of up to {rings} rings is closed under refinement")]
+    NotClosed {
+        /// How many rings were tried.
+        rings: usize,
+    },
+    /// The tension of the generalised scheme; u = -1 divides by zero.
+    #[error("tension u0 = {tension} is out of range: accepted is u0 > -1")]
+    Tension {
+        /// What was given.
+        tension: f64,
+    },
+    /// The order of the generalised tension scheme.
+    #[error("order {order} is out of range: accepted are 3 to {maximum}")]
+    Order {
+        /// What was given.
+        order: usize,
+        /// The largest accepted order.
+        maximum: usize,
+    },
+    /// The scheme has no rules for this valence.
+    #[error("scheme {scheme} has no rules for valence {valence}: accepted are {accepted}")]
+    NoSuchValence {
+        /// The scheme.
+        scheme: String,
+        /// What was asked for.
+        valence: usize,
+        /// The valences it has.
+        accepted: String,
+    },
+    /// A weight is neither a number nor a fraction.
+    #[error("'{text}' is not a number: accepted are decimals and fractions of integers such as 7/12")]
+    Number {
+        /// What was given.
+        text: String,
+    },
+    /// A scheme file does not have the expected form.
+    #[error("{message}")]
+    SchemeFile {
+        /// What is wrong, and where.
+        message: String,
+    },
+    /// The name of a scheme is unknown or its parameters do not fit it.
+    #[error("scheme '{spec}': {reason}; accepted are {accepted}")]
+    Spec {
+        /// What was given.
+        spec: String,
+        /// What is wrong with it.
+        reason: String,
+        /// What is accepted in its place.
+        accepted: String,
+    },
+    /// The margin to the eigenvalue bounds is a fraction of mu.
+    #[error("margin kappa = {margin} is out of range: accepted is 0 <= kappa < 1")]
+    Margin {
+        /// What was given.
+        margin: f64,
+    },
+    /// The ratio of the vertex stencil's weights must not make one of them negative.
+    #[error("phi = {phi} is out of range: accepted is 0 <= phi < infinity")]
+    Phi {
+        /// What was given.
+        phi: f64,
+    },
+    /// No (f2, f3) is admissible.
+    #[error("no stencil is admissible at N = {valence}, lambda = {lambda}, s = {s}, phi = {phi}")]
+    Infeasible {
+        /// The valence.
+        valence: usize,
+        /// The subdominant eigenvalue.
+        lambda: f64,
+        /// The relaxation `mu / lambda^2`.
+        s: f64,
+        /// The ratio `alpha / beta`.
+        phi: f64,
+    },
+    /// A given (f2, f3) is not admissible.
+    #[error(transparent)]
+    Point(#[from] Box<crate::lambda::InfeasiblePoint>),
+    /// Not the knots of an open spline space.
+    #[error("knot {index} = {value}: accepted is that {reason}")]
+    Knots {
+        /// Position of the first bad knot, from 0.
+        index: usize,
+        /// Its value (NaN if it is missing).
+        value: f64,
+        /// The condition it breaks.
+        reason: &'static str,
+    },
+    /// A spline has one finite coefficient for each dimension of its space.
+    #[error("{finite} finite spline coefficients: accepted are exactly {expected}, all finite")]
+    Coefficients {
+        /// How many of the given ones are finite.
+        finite: usize,
+        /// The dimension of the space.
+        expected: usize,
+    },
+    /// An argument outside of a spline's domain.
+    #[error("{value} is outside of the spline's domain: accepted are {lower} to {upper}")]
+    OutsideSpline {
+        /// What was given.
+        value: f64,
+        /// Start of the domain.
+        lower: f64,
+        /// End of the domain.
+        upper: f64,
+    },
+    /// The lambda-scheme's table has no entry for a valence.
+    #[error("valence {valence} is not tabulated: accepted {}", accepted(tabulated))]
+    NotTabulated {
+        /// What was asked for.
+        valence: usize,
+        /// What there is.
+        tabulated: Vec<usize>,
+    },
+    /// A table of the lambda-scheme is not valid.
+    #[error("table of the lambda-scheme: {0}")]
+    Table(#[from] crate::lambda::TableError),
+}
+
+fn accepted(tabulated: &[usize]) -> String {
+    if tabulated.is_empty() {
+        return "are none, the table is empty".into();
+    }
+    let list: Vec<String> = tabulated.iter().map(usize::to_string).collect();
+    format!("are {}", list.join(", "))
+}
