@@ -29,6 +29,8 @@ mod check;
 mod constraint;
 mod curves;
 mod starts;
+#[cfg(test)]
+mod tests;
 
 pub use check::InfeasiblePoint;
 pub use constraint::{Constraint, Curve, Root};

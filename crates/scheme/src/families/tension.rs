@@ -1,0 +1,199 @@
+//! The generalised tension scheme of arbitrary order.
+//!
+//! Fang, Ma and Wang, *A generalized surface subdivision scheme of arbitrary order with a tension parameter*,
+//! Computer-Aided Design. Order k gives surfaces of degree k-1 on regular nets: uniform B-splines at tension `u = 1`,
+//! trigonometric ones at `u = cos a`, hyperbolic ones at `u = cosh a`. The tension goes from level to level by the half-angle
+//! formula `u' = sqrt((1+u)/2)`, so the limit level is that of `u = 1`.
+//!
+//! **Even orders** (around a vertex): bilinear refinement, one smoothing that knows the tension, `(k-4)/2` uniform ones. At a
+//! vertex of valence N the smoothings keep `((N-4)(1+2u) + N u^2) / (N (1+u)^2)` and `(N-3)/N`, and take
+//! `8u / (N^2 (1+u)^2)` and `2/N^2` of **each** edge neighbour, `4 / (N^2 (1+u)^2)` and `1/N^2` of **each** face neighbour.
+//!
+//! **Odd orders** (around a face of valence N): corner cutting in which the N-gon's new corner keeps
+//! `(N u^2 + (2N-4) u + 1) / (N (1+u)^2)` and takes `(1+2u) / (N (1+u)^2)` of each of its two neighbours in the face and
+//! `1 / (N (1+u)^2)` of each other corner; then `(k-3)/2` uniform smoothings. The published smoothing mask 1/4, 1/8, 1/16 has
+//! no unique opposite corner beside an N-gon; here a point becomes the mean of the centroids of its four faces, with the
+//! N-gon's true centroid, which is the mask where all faces are quadrilaterals.
+
+use super::doo_sabin::CORNER;
+use crate::{Error, Fan, Lattice, Level, Line, Pass, Scalar, Scheme, Site, Stencil};
+
+/// The largest order: the local matrix of order k has about `N k^2 / 4` rows, and nothing beyond degree 31 is of use.
+pub const MAX_ORDER: usize = 32;
+
+/// Levels that are told apart from the limit level: `u - 1` shrinks by 4 a level, and u is at most the largest double.
+const MAX_LEADING: usize = 600;
+
+/// The scheme of order `order` with initial tension `u0`, around a vertex (even orders) or a face (odd orders).
+///
+/// # Errors
+/// [`Error::Valence`] below 3, [`Error::Order`] unless 3 <= order <= [`MAX_ORDER`], [`Error::Tension`] unless u0 is finite
+/// and above -1.
+pub fn tension<S: Scalar>(valence: usize, order: usize, u0: f64) -> Result<Scheme<S>, Error> {
+    if valence < 3 {
+        return Err(Error::Valence { valence });
+    }
+    if !(3..=MAX_ORDER).contains(&order) {
+        return Err(Error::Order {
+            order,
+            maximum: MAX_ORDER,
+        });
+    }
+    if !(u0.is_finite() && u0 > -1.0) {
+        return Err(Error::Tension { tension: u0 });
+    }
+    let level = |u| match order % 2 {
+        0 => even(valence, order, u),
+        _ => odd(valence, order, u),
+    };
+    let (mut leading, mut rough, mut u) = (Vec::new(), u0, S::exact(u0));
+    while rough != 1.0 && leading.len() < MAX_LEADING {
+        leading.push(level(u));
+        // the half-angle step has 1 as its attractive fixed point and reaches it, to rounding, in finitely many steps
+        let next = ((1.0 + rough) / 2.0).sqrt();
+        if next == rough {
+            break;
+        }
+        (rough, u) = (next, ((S::one() + u) / S::ratio(2, 1)).sqrt());
+    }
+    Ok(Scheme {
+        name: format!("tension:order={order},u0={u0}"),
+        degree: order - 1,
+        leading,
+        limit: level(S::one()),
+    })
+}
+
+fn even<S: Scalar>(valence: usize, order: usize, u: S) -> Level<S> {
+    let fan = Fan::Closed(valence);
+    let (edge, face) = (Site { sector: 0, x: 2, y: 0 }, Site { sector: 0, x: 2, y: 2 });
+    let smoothing = |u: S, edge_weight: S, face_weight: S, own: S| {
+        let stencil = Stencil::new()
+            .with(Site::CENTRE, own)
+            .with_orbit(fan, edge, edge_weight)
+            .with_orbit(fan, face, face_weight);
+        Pass::regular(Lattice::Vertex, Lattice::Vertex, Line::smoothing(u)).with(Site::CENTRE, stencil)
+    };
+    let int = |i: i64| S::ratio(i, 1);
+    let (n, one) = (valence as i64, S::one());
+    let square = (one + u) * (one + u);
+    let with_tension = smoothing(
+        u,
+        int(8) * u / (int(n * n) * square),
+        int(4) / (int(n * n) * square),
+        (int(n - 4) * (one + int(2) * u) + int(n) * u * u) / (int(n) * square),
+    );
+    let uniform = smoothing(one, S::ratio(2, n * n), S::ratio(1, n * n), S::ratio(n - 3, n));
+    let mut passes = vec![
+        Pass::regular(Lattice::Vertex, Lattice::Vertex, Line::midpoint()),
+        with_tension,
+    ];
+    passes.resize(order / 2, uniform);
+    Level {
+        fan,
+        passes,
+        symmetric: true,
+        mirror: true,
+    }
+}
+
+fn odd<S: Scalar>(valence: usize, order: usize, u: S) -> Level<S> {
+    let fan = Fan::Closed(valence);
+    let int = |i: i64| S::ratio(i, 1);
+    let (n, one) = (valence as i64, S::one());
+    let scale = one / (int(n) * (one + u) * (one + u));
+    let corner = (0..n).fold(Stencil::new(), |stencil, j| {
+        let weight = match j {
+            0 => int(n) * u * u + int(2 * n - 4) * u + one,
+            j if j == 1 || j == n - 1 => one + int(2) * u,
+            _ => one,
+        };
+        stencil.with(CORNER.rotated(fan, j), weight * scale)
+    });
+    let mut passes = vec![Pass::regular(Lattice::Face, Lattice::Face, Line::corner_cutting(u)).with(CORNER, corner)];
+    let centroid = Stencil::new().with_orbit(fan, CORNER, S::ratio(1, n));
+    for _ in 0..(order - 3) / 2 {
+        passes
+            .push(Pass::regular(Lattice::Face, Lattice::Vertex, Line::average()).with(Site::CENTRE, centroid.clone()));
+        passes.push(Pass::regular(Lattice::Vertex, Lattice::Face, Line::average()));
+    }
+    Level {
+        fan,
+        passes,
+        symmetric: true,
+        mirror: true,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn order_four_at_tension_one_is_catmull_clark() {
+        for valence in 3..12 {
+            let tension = tension::<f64>(valence, 4, 1.0).unwrap();
+            let reference = super::super::catmull_clark::<f64>(valence).unwrap();
+            let net = crate::DenseNet {
+                numbering: reference.numbering(2),
+            };
+            let sites = net.numbering.sites();
+            let rows = crate::refine(tension.limit(), &net, &sites).unwrap();
+            let expected = crate::refine(reference.limit(), &net, &sites).unwrap();
+            for (row, expected) in rows.iter().zip(&expected) {
+                for (a, b) in row.iter().zip(expected) {
+                    assert!((a - b).abs() < 1e-15, "valence {valence}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn odd_orders_equal_doo_sabin_at_valence_four_only() {
+        for valence in 3..9 {
+            let rows = |scheme: Scheme<f64>| scheme.limit.stencil(0, CORNER).unwrap();
+            let ours = rows(tension(valence, 3, 1.0).unwrap());
+            let original = rows(super::super::doo_sabin(valence).unwrap());
+            let distance = ours
+                .terms()
+                .iter()
+                .zip(original.terms())
+                .map(|(a, b)| (a.1 - b.1).abs())
+                .fold(0.0, f64::max);
+            assert_eq!(distance < 1e-15, valence == 4, "valence {valence}: {distance}");
+        }
+    }
+
+    #[test]
+    fn all_stencils_are_affine_and_closed_rings_are_the_smallest() {
+        for valence in [3, 4, 5, 8] {
+            for order in 3..=12 {
+                for u0 in [0.01, 0.5, 1.0, 2.0, 50.0] {
+                    let scheme = tension::<f64>(valence, order, u0).unwrap();
+                    let level = scheme.level(0);
+                    for pass in 0..level.passes.len() {
+                        for &site in level.passes[pass].special.keys() {
+                            let sum = level.stencil(pass, site).unwrap().sum();
+                            assert!((sum - 1.0).abs() < 1e-14);
+                        }
+                    }
+                    let rings = if order % 2 == 0 { order / 2 - 1 } else { (order - 3) / 2 };
+                    assert_eq!(scheme.closed_rings(), Ok(rings), "order {order}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn tension_tends_to_one_from_both_sides() {
+        for u0 in [-0.999, 0.0, 0.7, 1.0, 50.0, 1e300] {
+            let scheme = tension::<f64>(5, 4, u0).unwrap();
+            assert!(scheme.leading.len() < MAX_LEADING, "{u0}: {}", scheme.leading.len());
+            assert_eq!(scheme.leading.is_empty(), u0 == 1.0);
+        }
+        for u0 in [-1.0, -3.0, f64::NAN, f64::INFINITY] {
+            assert!(matches!(tension::<f64>(5, 4, u0), Err(Error::Tension { .. })));
+        }
+        assert!(matches!(tension::<f64>(5, 2, 1.0), Err(Error::Order { .. })));
+    }
+}

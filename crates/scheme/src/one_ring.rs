@@ -1,0 +1,106 @@
+//! Schemes that change only the three stencils next to an extraordinary vertex of a bicubic surface.
+
+use crate::{Error, Fan, Lattice, Level, Line, Pass, Scalar, Scheme, Site, Stencil};
+
+/// The nine weights of a one-ring scheme around a vertex V with neighbours E_i (edges) and F_i (faces, between E_i and
+/// E_{i+1}):
+///
+/// ```text
+/// F_i' = f1 V + f2 (E_i + E_{i+1}) + f3 F_i
+/// E_i' = d1 V + d2 E_i + e1 (E_{i-1} + E_{i+1}) + e2 (F_{i-1} + F_i)
+/// V'   = (1 - alpha - beta) V + alpha/N sum E_i + beta/N sum F_i
+/// ```
+///
+/// `alpha` and `beta` are **total** weights of the vertex stencil. Affine invariance is `f1 + 2 f2 + f3 = 1` and
+/// `d1 + d2 + 2 e1 + 2 e2 = 1`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs)] // the weights are defined by the rules above
+pub struct OneRing<S> {
+    pub f1: S,
+    pub f2: S,
+    pub f3: S,
+    pub d1: S,
+    pub d2: S,
+    pub e1: S,
+    pub e2: S,
+    pub alpha: S,
+    pub beta: S,
+}
+
+/// The neighbours E_0 and F_0 of the centre.
+const EDGE: Site = Site { sector: 0, x: 2, y: 0 };
+const FACE: Site = Site { sector: 0, x: 2, y: 2 };
+
+impl<S> OneRing<S> {
+    /// The same weights in another number type.
+    pub fn map<T>(self, f: impl Fn(S) -> T) -> OneRing<T> {
+        OneRing {
+            f1: f(self.f1),
+            f2: f(self.f2),
+            f3: f(self.f3),
+            d1: f(self.d1),
+            d2: f(self.d2),
+            e1: f(self.e1),
+            e2: f(self.e2),
+            alpha: f(self.alpha),
+            beta: f(self.beta),
+        }
+    }
+}
+
+impl<S: Scalar> OneRing<S> {
+    /// The weights with their names, in the order of the fields.
+    pub fn named(self) -> [(&'static str, S); 9] {
+        [
+            ("f1", self.f1),
+            ("f2", self.f2),
+            ("f3", self.f3),
+            ("d1", self.d1),
+            ("d2", self.d2),
+            ("e1", self.e1),
+            ("e2", self.e2),
+            ("alpha", self.alpha),
+            ("beta", self.beta),
+        ]
+    }
+
+    /// The scheme: uniform bicubic refinement with these stencils at V, E_i and F_i.
+    ///
+    /// # Errors
+    /// [`Error::Valence`] below 3.
+    pub fn scheme(self, name: impl Into<String>, valence: usize) -> Result<Scheme<S>, Error> {
+        if valence < 3 {
+            return Err(Error::Valence { valence });
+        }
+        let fan = Fan::Closed(valence);
+        let next = |site: Site, by: i64| site.rotated(fan, by);
+        let n = S::ratio(valence as i64, 1);
+        let face = Stencil::new()
+            .with(Site::CENTRE, self.f1)
+            .with(EDGE, self.f2)
+            .with(next(EDGE, 1), self.f2)
+            .with(FACE, self.f3);
+        let edge = Stencil::new()
+            .with(Site::CENTRE, self.d1)
+            .with(EDGE, self.d2)
+            .with(next(EDGE, -1), self.e1)
+            .with(next(EDGE, 1), self.e1)
+            .with(next(FACE, -1), self.e2)
+            .with(FACE, self.e2);
+        let vertex = Stencil::new()
+            .with(Site::CENTRE, S::one() - self.alpha - self.beta)
+            .with_orbit(fan, EDGE, self.alpha / n)
+            .with_orbit(fan, FACE, self.beta / n);
+        let pass = Pass::regular(Lattice::Vertex, Lattice::Vertex, Line::cubic())
+            .with(Site::CENTRE, vertex)
+            .with(EDGE, edge)
+            .with(FACE, face);
+        let level = Level {
+            fan,
+            passes: vec![pass],
+            symmetric: true,
+            mirror: true,
+        };
+        Ok(Scheme::stationary(name, 3, level))
+    }
+}

@@ -1,0 +1,180 @@
+//! A scheme: levels of passes around one centre.
+
+use crate::{Error, Fan, Lattice, Level, Net, Numbering, Scalar, Site, refine};
+
+/// A subdivision scheme around one extraordinary vertex or face.
+///
+/// A scheme is data, made by the constructor of its family. A non-stationary scheme lists its leading levels; from then on
+/// its limit level holds, the one that governs continuity.
+#[derive(Clone, Debug)]
+pub struct Scheme<S> {
+    /// What the scheme is, in the words of [`Spec`](crate::Spec).
+    pub name: String,
+    /// The degree of the regular surface in each direction: 3 for bicubic.
+    pub degree: usize,
+    /// The levels before the limit level, the first refinement first; empty for a stationary scheme.
+    pub leading: Vec<Level<S>>,
+    /// All further levels.
+    pub limit: Level<S>,
+}
+
+impl<S: Scalar> Scheme<S> {
+    /// A scheme whose levels are all the same.
+    pub fn stationary(name: impl Into<String>, degree: usize, level: Level<S>) -> Self {
+        Scheme {
+            name: name.into(),
+            degree,
+            leading: Vec::new(),
+            limit: level,
+        }
+    }
+
+    /// The rules of refinement `index`, 0 for the first.
+    pub fn level(&self, index: usize) -> &Level<S> {
+        self.leading.get(index).unwrap_or(&self.limit)
+    }
+
+    /// The level that governs continuity in the limit.
+    pub fn limit(&self) -> &Level<S> {
+        &self.limit
+    }
+
+    /// The number of sectors.
+    pub fn valence(&self) -> usize {
+        self.limit.fan.sectors()
+    }
+
+    /// The kind of the control net.
+    pub fn lattice(&self) -> Lattice {
+        self.limit.lattice()
+    }
+
+    /// The control net out to a ring.
+    pub fn numbering(&self, rings: usize) -> Numbering {
+        Numbering {
+            fan: self.limit.fan,
+            lattice: self.lattice(),
+            rings,
+        }
+    }
+
+    /// The smallest number of rings whose refinement reads no point outside them: the smallest net with a square local
+    /// matrix, which holds all eigenvalues that are not those of regular rings alone.
+    ///
+    /// # Errors
+    /// Those of [`refine`]; [`Error::NotClosed`] if no ring up to 64 closes.
+    pub fn closed_rings(&self) -> Result<usize, Error> {
+        // a face net closes with ring 0 at the earliest, a vertex net with ring 1: the centre alone never determines a patch
+        let first = 1 - self.lattice().parity() as usize;
+        for rings in first..=64 {
+            let reach = self.reach(rings)?;
+            if reach <= rings {
+                return Ok(rings);
+            }
+        }
+        Err(Error::NotClosed { rings: 64 })
+    }
+
+    /// The outermost control ring read by refined points of rings up to `rings`.
+    fn reach(&self, rings: usize) -> Result<usize, Error> {
+        let sites = self.representatives(rings);
+        let reach = refine(&self.limit, &ReachNet, &sites)?;
+        Ok(reach.into_iter().max().unwrap_or(0))
+    }
+
+    /// The outermost refined ring in whose rule a special stencil takes part (`None` without special stencils): beyond it
+    /// the surface is a regular spline.
+    ///
+    /// # Errors
+    /// Those of [`refine`].
+    pub fn special_rings(&self) -> Result<Option<usize>, Error> {
+        let level = &self.limit;
+        // the marks start with the special points of each pass and spread through the passes after it
+        let mut outermost = None;
+        for first in 0..level.passes.len() {
+            let rest = Level {
+                passes: level.passes[first + 1..].to_vec(),
+                ..level.clone()
+            };
+            for rings in 0..=level.passes.len() + 2 {
+                for site in self.representatives(rings).into_iter().filter(|s| s.ring() == rings) {
+                    let marked = if rest.passes.is_empty() {
+                        level.is_special(first, site)
+                    } else {
+                        let mark = MarkNet { level, pass: first };
+                        refine(&rest, &mark, &[site])?.into_iter().any(|marked| marked)
+                    };
+                    if marked {
+                        outermost = outermost.max(Some(rings));
+                    }
+                }
+            }
+        }
+        Ok(outermost)
+    }
+
+    /// One site of each orbit, or every site if there is no symmetry.
+    fn representatives(&self, rings: usize) -> Vec<Site> {
+        let numbering = self.numbering(rings);
+        if self.limit.symmetric {
+            let centre = (numbering.lattice == Lattice::Vertex).then_some(Site::CENTRE);
+            centre.into_iter().chain(numbering.sector_sites(0)).collect()
+        } else {
+            numbering.sites()
+        }
+    }
+
+    /// The fan.
+    pub fn fan(&self) -> Fan {
+        self.limit.fan
+    }
+}
+
+/// A point's value is the outermost control ring it depends on.
+struct ReachNet;
+
+impl<S: Scalar> Net<S> for ReachNet {
+    type Value = usize;
+
+    fn zero(&self) -> usize {
+        0
+    }
+
+    fn control(&self, site: Site) -> Result<usize, Error> {
+        Ok(site.ring())
+    }
+
+    fn orbit(&self, site: Site) -> Site {
+        site
+    }
+
+    fn accumulate(&self, sum: &mut usize, _weight: S, at_orbit: &usize, _site: Site) {
+        *sum = (*sum).max(*at_orbit);
+    }
+}
+
+/// A point's value says whether it depends on a point that the given pass makes by a special stencil.
+struct MarkNet<'a, S> {
+    level: &'a Level<S>,
+    pass: usize,
+}
+
+impl<S: Scalar> Net<S> for MarkNet<'_, S> {
+    type Value = bool;
+
+    fn zero(&self) -> bool {
+        false
+    }
+
+    fn control(&self, site: Site) -> Result<bool, Error> {
+        Ok(self.level.is_special(self.pass, site))
+    }
+
+    fn orbit(&self, site: Site) -> Site {
+        site
+    }
+
+    fn accumulate(&self, sum: &mut bool, _weight: S, at_orbit: &bool, _site: Site) {
+        *sum |= *at_orbit;
+    }
+}

@@ -1,0 +1,307 @@
+//! Schemes by name.
+//!
+//! A spec is a family's name, then parameters: `catmull-clark`, `lambda:lambda=0.5`, `lambda:optimal`,
+//! `tension:order=6,u0=2`. [`registry`] lists the families; every scheme of it is tested, by a test that walks the registry.
+
+use crate::families::{catmull_clark, doo_sabin, tension};
+use crate::lambda::{LambdaTable, Plane, Relaxation};
+use crate::{Error, Scalar, Scheme};
+use std::fmt;
+use std::str::FromStr;
+
+/// A registered family.
+#[derive(Clone, Copy, Debug)]
+pub struct Family {
+    /// The name that a spec starts with.
+    pub name: &'static str,
+    /// The parameters it takes, as shown to users.
+    pub usage: &'static str,
+    /// What it is and where it comes from.
+    pub summary: &'static str,
+    /// Specs that stand for the family in tests and comparisons.
+    pub examples: &'static [&'static str],
+}
+
+/// All families, in the order in which they are listed to users.
+pub fn registry() -> &'static [Family] {
+    &[
+        Family {
+            name: "catmull-clark",
+            usage: "catmull-clark",
+            summary: "bicubic, around a vertex (Catmull and Clark 1978)",
+            examples: &["catmull-clark"],
+        },
+        Family {
+            name: "doo-sabin",
+            usage: "doo-sabin",
+            summary: "biquadratic, around a face, original weights (Doo and Sabin 1978)",
+            examples: &["doo-sabin"],
+        },
+        Family {
+            name: "lambda",
+            usage: "lambda:optimal | lambda:lambda=L[,f2=X,f3=Y][,s=S]",
+            summary: "bicubic, tuned for a subdominant eigenvalue (Ma, Wang and Ma 2023); weights from the embedded spline table unless f2 and f3 are given",
+            examples: &["lambda:optimal", "lambda:lambda=0.5", "lambda:lambda=0.39"],
+        },
+        Family {
+            name: "tension",
+            usage: "tension:order=K[,u0=U]",
+            summary: "any order K >= 3 with initial tension U (Fang, Ma and Wang); even orders around a vertex, odd around a face",
+            examples: &[
+                "tension:order=3",
+                "tension:order=4,u0=0.5",
+                "tension:order=5",
+                "tension:order=6,u0=2",
+            ],
+        },
+    ]
+}
+
+/// Which scheme; the valence comes later.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Spec {
+    /// Catmull-Clark.
+    CatmullClark,
+    /// Doo-Sabin, original weights.
+    DooSabin,
+    /// The lambda-scheme at its tabulated optimum.
+    LambdaOptimal,
+    /// The lambda-scheme at a given lambda.
+    Lambda {
+        /// The subdominant eigenvalue.
+        lambda: f64,
+        /// The relaxation, by the rule of [`Relaxation`] if not given.
+        s: Option<f64>,
+        /// (f2, f3), from the embedded table if not given.
+        weights: Option<(f64, f64)>,
+    },
+    /// The generalised tension scheme.
+    Tension {
+        /// The order k; the degree is k-1.
+        order: usize,
+        /// The tension of the first refinement.
+        u0: f64,
+    },
+}
+
+impl Spec {
+    /// The scheme around a centre of the given valence.
+    ///
+    /// # Errors
+    /// Those of the family: valence or parameters out of range, a valence that is not tabulated.
+    pub fn scheme<S: Scalar>(&self, valence: usize) -> Result<Scheme<S>, Error> {
+        match *self {
+            Spec::CatmullClark => catmull_clark(valence),
+            Spec::DooSabin => doo_sabin(valence),
+            Spec::Tension { order, u0 } => tension(valence, order, u0),
+            Spec::LambdaOptimal | Spec::Lambda { .. } => {
+                let (plane, f2, f3) = self.lambda_point(valence)?;
+                let exact = |value| S::exact(value);
+                let plane = Plane {
+                    valence,
+                    lambda: exact(plane.lambda),
+                    s: exact(plane.s),
+                    phi: exact(plane.phi),
+                };
+                plane
+                    .stencil(exact(f2), exact(f3))
+                    .weights
+                    .scheme(self.to_string(), valence)
+            }
+        }
+    }
+
+    /// The plane and the weights (f2, f3) of a lambda-scheme.
+    fn lambda_point(&self, valence: usize) -> Result<(Plane<f64>, f64, f64), Error> {
+        let (lambda, s, weights) = match *self {
+            Spec::Lambda { lambda, s, weights } => (lambda, s, weights),
+            _ => (LambdaTable::embedded()?.entry(valence)?.lambda_optimal, None, None),
+        };
+        let s = match s {
+            Some(s) => s,
+            None => Relaxation::new(valence)?.s(lambda)?,
+        };
+        let plane = Plane::new(valence, lambda, s)?;
+        let (f2, f3) = match weights {
+            Some(weights) => weights,
+            None => LambdaTable::embedded()?.entry(valence)?.weights(lambda)?,
+        };
+        Ok((plane, f2, f3))
+    }
+}
+
+impl fmt::Display for Spec {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Spec::CatmullClark => write!(f, "catmull-clark"),
+            Spec::DooSabin => write!(f, "doo-sabin"),
+            Spec::LambdaOptimal => write!(f, "lambda:optimal"),
+            Spec::Lambda { lambda, s, weights } => {
+                write!(f, "lambda:lambda={lambda}")?;
+                if let Some((f2, f3)) = weights {
+                    write!(f, ",f2={f2},f3={f3}")?;
+                }
+                s.map_or(Ok(()), |s| write!(f, ",s={s}"))
+            }
+            Spec::Tension { order, u0 } => write!(f, "tension:order={order},u0={u0}"),
+        }
+    }
+}
+
+/// The parameters of a spec, taken out one by one so that what remains is unknown.
+struct Parameters<'a> {
+    spec: &'a str,
+    usage: &'static str,
+    pairs: Vec<(&'a str, &'a str)>,
+}
+
+impl<'a> Parameters<'a> {
+    fn new(spec: &'a str, usage: &'static str, text: Option<&'a str>) -> Result<Self, Error> {
+        let mut parameters = Parameters {
+            spec,
+            usage,
+            pairs: Vec::new(),
+        };
+        for part in text.into_iter().flat_map(|text| text.split(',')) {
+            let (name, value) = part.split_once('=').unwrap_or((part, ""));
+            if parameters.pairs.iter().any(|&(known, _)| known == name.trim()) {
+                return Err(parameters.refuse(format!("'{}' is given twice", name.trim())));
+            }
+            parameters.pairs.push((name.trim(), value.trim()));
+        }
+        Ok(parameters)
+    }
+
+    fn refuse(&self, reason: impl Into<String>) -> Error {
+        Error::Spec {
+            spec: self.spec.to_owned(),
+            reason: reason.into(),
+            accepted: self.usage.to_owned(),
+        }
+    }
+
+    fn take<T: FromStr>(&mut self, name: &str) -> Result<Option<T>, Error> {
+        let Some(index) = self.pairs.iter().position(|&(known, _)| known == name) else {
+            return Ok(None);
+        };
+        let (_, value) = self.pairs.remove(index);
+        match value.parse() {
+            Ok(value) => Ok(Some(value)),
+            Err(_) => Err(self.refuse(format!("'{value}' is not a value for {name}"))),
+        }
+    }
+
+    fn flag(&mut self, name: &str) -> bool {
+        let index = self.pairs.iter().position(|&pair| pair == (name, ""));
+        index.map(|index| self.pairs.remove(index)).is_some()
+    }
+
+    fn finish(&self) -> Result<(), Error> {
+        match self.pairs.first() {
+            None => Ok(()),
+            Some((name, _)) => Err(self.refuse(format!("unknown parameter '{name}'"))),
+        }
+    }
+}
+
+impl FromStr for Spec {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let (name, rest) = match text.split_once(':') {
+            Some((name, rest)) => (name, Some(rest)),
+            None => (text, None),
+        };
+        let Some(family) = registry().iter().find(|family| family.name == name) else {
+            let known: Vec<&str> = registry().iter().map(|family| family.usage).collect();
+            return Err(Error::Spec {
+                spec: text.to_owned(),
+                reason: "no such family".to_owned(),
+                accepted: known.join(" | "),
+            });
+        };
+        let mut parameters = Parameters::new(text, family.usage, rest)?;
+        let spec = match family.name {
+            "catmull-clark" => Spec::CatmullClark,
+            "doo-sabin" => Spec::DooSabin,
+            "lambda" if parameters.flag("optimal") => Spec::LambdaOptimal,
+            "lambda" => {
+                let Some(lambda) = parameters.take("lambda")? else {
+                    return Err(parameters.refuse("neither 'optimal' nor a lambda is given"));
+                };
+                let s = parameters.take("s")?;
+                let weights = match (parameters.take("f2")?, parameters.take("f3")?) {
+                    (Some(f2), Some(f3)) => Some((f2, f3)),
+                    (None, None) => None,
+                    _ => return Err(parameters.refuse("f2 and f3 must be given together")),
+                };
+                let numbers = [Some(lambda), s, weights.map(|w| w.0), weights.map(|w| w.1)];
+                if numbers.iter().flatten().any(|number: &f64| !number.is_finite()) {
+                    return Err(parameters.refuse("a parameter is not a finite number"));
+                }
+                Spec::Lambda { lambda, s, weights }
+            }
+            _ => {
+                let Some(order) = parameters.take("order")? else {
+                    return Err(parameters.refuse("no order is given"));
+                };
+                Spec::Tension {
+                    order,
+                    u0: parameters.take("u0")?.unwrap_or(1.0),
+                }
+            }
+        };
+        parameters.finish()?;
+        Ok(spec)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_registered_example_parses_and_prints_itself() {
+        for family in registry() {
+            assert!(!family.examples.is_empty(), "{} has no example", family.name);
+            for example in family.examples {
+                let spec: Spec = example.parse().unwrap();
+                assert_eq!(spec.to_string().parse::<Spec>().unwrap(), spec);
+                assert!(spec.to_string().starts_with(family.name));
+            }
+        }
+    }
+
+    #[test]
+    fn explicit_weights_need_no_table() {
+        let spec: Spec = "lambda:lambda=0.5,f2=0.25,f3=0.25".parse().unwrap();
+        let level = spec.scheme::<f64>(4).unwrap().limit;
+        let reference = catmull_clark::<f64>(4).unwrap().limit;
+        for &site in reference.passes[0].special.keys() {
+            let (a, b) = (level.stencil(0, site).unwrap(), reference.stencil(0, site).unwrap());
+            for (a, b) in a.terms().iter().zip(b.terms()) {
+                assert!(a.0 == b.0 && (a.1 - b.1).abs() < 1e-15);
+            }
+        }
+    }
+
+    #[test]
+    fn bad_specs_say_what_is_accepted() {
+        for (text, needle) in [
+            ("", "no such family"),
+            ("loop", "no such family"),
+            ("catmull-clark:order=4", "unknown parameter"),
+            ("lambda", "neither"),
+            ("lambda:lambda=x", "not a value"),
+            ("lambda:lambda=nan", "finite"),
+            ("lambda:lambda=0.5,f2=0.3", "together"),
+            ("lambda:lambda=0.5,lambda=0.6", "twice"),
+            ("lambda:optimal,s=1", "unknown"),
+            ("tension:u0=1", "order"),
+            ("tension:order=4,u=1", "unknown parameter 'u'"),
+        ] {
+            let error = text.parse::<Spec>().unwrap_err().to_string();
+            assert!(error.contains(needle) && error.contains("accepted"), "{text}: {error}");
+        }
+    }
+}
