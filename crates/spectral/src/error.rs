@@ -1,0 +1,91 @@
+//! What can go wrong in an analysis.
+
+/// Why an analysis is refused or failed. Variants carry the offending numbers.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The scheme's rules cannot be run on this net.
+    #[error(transparent)]
+    Scheme(#[from] eigenring_scheme::Error),
+    /// Fourier blocks exist for rotation-symmetric rules only.
+    #[error("the rules differ from sector to sector: there are no Fourier blocks")]
+    NotSymmetric,
+    /// The iteration for eigenvalues or singular values did not converge, or an entry was not finite.
+    #[error("no decomposition of the {size} x {size} matrix was found: its largest entry is {largest}")]
+    Decomposition {
+        /// The size of the matrix.
+        size: usize,
+        /// Its largest entry in modulus; NaN if one is.
+        largest: f64,
+    },
+    /// A matrix has no eigenvalue near the given one.
+    #[error("{value} is not an eigenvalue of Fourier block {fourier}: the smallest singular value of S - {value} is {gap}")]
+    NotAnEigenvalue {
+        /// The value.
+        value: f64,
+        /// The block.
+        fourier: usize,
+        /// The distance to singularity.
+        gap: f64,
+    },
+    /// An eigenspace has not the dimension that the question needs.
+    #[error("eigenvalue {value} of Fourier block {fourier} has {found} eigenvectors where {expected} is needed")]
+    Multiplicity {
+        /// The eigenvalue.
+        value: f64,
+        /// The block.
+        fourier: usize,
+        /// The dimension of the eigenspace.
+        found: usize,
+        /// The dimension that is needed.
+        expected: usize,
+    },
+    /// The eigenvalue is defective or so close to another that left and right eigenvectors are orthogonal.
+    #[error("eigenvalue {value} of Fourier block {fourier} is defective or nearly so: l.r = {product} for unit vectors")]
+    Defective {
+        /// The eigenvalue.
+        value: f64,
+        /// The block.
+        fourier: usize,
+        /// The product of unit left and right eigenvectors.
+        product: f64,
+    },
+    /// An eigenvector cannot be scaled as asked since its entry at E_0 is zero.
+    #[error("the eigenvector of {value} in Fourier block {fourier} vanishes at the first point of ring 1")]
+    Scaling {
+        /// The eigenvalue.
+        value: f64,
+        /// The block.
+        fourier: usize,
+    },
+    /// A matrix file is not square or has no size that fits the valence.
+    #[error("a {rows} x {columns} matrix is no local matrix of valence {valence}: accepted are square ones of size 1 + {valence} R (R+1) around a vertex, {valence} (R+1)^2 around a face")]
+    MatrixSize {
+        /// Its rows.
+        rows: usize,
+        /// Its columns.
+        columns: usize,
+        /// The valence.
+        valence: usize,
+    },
+    /// A matrix is not block-circulant.
+    #[error("the matrix is not block-circulant for valence {valence}: entry ({row}, {column}) is {value}, but {rotated} one sector further")]
+    NotCirculant {
+        /// The valence.
+        valence: usize,
+        /// The row, counted from 0.
+        row: usize,
+        /// The column, counted from 0.
+        column: usize,
+        /// The entry.
+        value: f64,
+        /// The entry that should equal it.
+        rotated: f64,
+    },
+    /// The dominant eigenvalue is not 1, so there is no limit position.
+    #[error("the rows of the local matrix do not sum to 1: the largest defect is {defect}")]
+    RowSums {
+        /// The largest distance of a row sum from 1.
+        defect: f64,
+    },
+}

@@ -1,0 +1,277 @@
+//! The local subdivision matrix and its Fourier blocks: two readings of the same passes.
+//!
+//! With control points in the order of a [`Numbering`] the refined points of the same rings are `P' = S P`; row `i` of S
+//! holds the weights of refined point `i`. For rotation-symmetric rules S is block-circulant, and a net of Fourier index k,
+//! `P_i(x, y) = w^{k i} v(x, y)`, is mapped to one of the same index by the block `S_k` (Ball and Storry 1988). Rows and
+//! columns of `S_k` are the points of sector 0 in numbering order, preceded by the centre if k = 0 and the centre is a point.
+//! For levels with mirror symmetry the unknowns are the real ones of [`FourierNet`] and `S_k` is a real matrix.
+
+use crate::Error;
+use eigenring_scheme::{Complex, DenseNet, FourierNet, Level, Net, Numbering, Scalar, refine};
+
+/// A dense matrix, stored by rows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Matrix<T> {
+    rows: usize,
+    columns: usize,
+    entries: Vec<T>,
+}
+
+impl<T: Copy> Matrix<T> {
+    /// The matrix with the entries `f(row, column)`.
+    pub fn from_fn(rows: usize, columns: usize, mut f: impl FnMut(usize, usize) -> T) -> Self {
+        let entries = (0..rows * columns).map(|i| f(i / columns, i % columns)).collect();
+        Matrix { rows, columns, entries }
+    }
+
+    /// The matrix with the given rows, all of length `columns`.
+    pub fn from_rows(rows: Vec<Vec<T>>, columns: usize) -> Self {
+        debug_assert!(rows.iter().all(|row| row.len() == columns), "rows differ in length");
+        Matrix {
+            rows: rows.len(),
+            columns,
+            entries: rows.into_iter().flatten().collect(),
+        }
+    }
+
+    /// The number of rows.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// The number of columns.
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// One row.
+    pub fn row(&self, row: usize) -> &[T] {
+        &self.entries[row * self.columns..(row + 1) * self.columns]
+    }
+
+    /// The entries by rows.
+    pub fn entries(&self) -> &[T] {
+        &self.entries
+    }
+
+    /// The matrix of the images of the entries.
+    pub fn map<U>(&self, f: impl Fn(T) -> U) -> Matrix<U> {
+        Matrix {
+            rows: self.rows,
+            columns: self.columns,
+            entries: self.entries.iter().map(|&entry| f(entry)).collect(),
+        }
+    }
+}
+
+impl<T> std::ops::Index<(usize, usize)> for Matrix<T> {
+    type Output = T;
+    fn index(&self, (row, column): (usize, usize)) -> &T {
+        &self.entries[row * self.columns + column]
+    }
+}
+
+/// The Fourier block `S_k`, real where the rules have mirror symmetry.
+#[derive(Clone, Debug)]
+pub enum Block<S> {
+    /// In the real unknowns of [`FourierNet`].
+    Real(Matrix<S>),
+    /// In the values `v(x, y)` themselves.
+    Complex(Matrix<Complex<S>>),
+}
+
+impl<S: Scalar> Block<S> {
+    /// The number of rows and columns.
+    pub fn size(&self) -> usize {
+        match self {
+            Block::Real(matrix) => matrix.rows(),
+            Block::Complex(matrix) => matrix.rows(),
+        }
+    }
+
+    /// The block with complex entries, whatever it was.
+    pub fn to_complex(&self) -> Matrix<Complex<S>> {
+        match self {
+            Block::Real(matrix) => matrix.map(|entry| (entry, S::zero())),
+            Block::Complex(matrix) => matrix.clone(),
+        }
+    }
+}
+
+/// The net of `level` out to `rings`.
+pub fn numbering<S: Scalar>(level: &Level<S>, rings: usize) -> Numbering {
+    Numbering {
+        fan: level.fan,
+        lattice: level.lattice(),
+        rings,
+    }
+}
+
+/// The local matrix on `rings` rings, rows and columns in the order of the [`numbering`].
+///
+/// # Errors
+/// [`Error::Scheme`] if a refined point of these rings reads a control point beyond them.
+pub fn local_matrix<S: Scalar>(level: &Level<S>, rings: usize) -> Result<Matrix<S>, Error> {
+    let numbering = numbering(level, rings);
+    let rows = refine(level, &DenseNet { numbering }, &numbering.sites())?;
+    Ok(Matrix::from_rows(rows, numbering.count()))
+}
+
+/// The Fourier block of index `index` on `rings` rings.
+///
+/// # Errors
+/// [`Error::NotSymmetric`] if the rules differ from sector to sector; otherwise as [`local_matrix`].
+pub fn fourier_block<S: Scalar>(level: &Level<S>, rings: usize, index: usize) -> Result<Block<S>, Error> {
+    block(level, rings, index, level.mirror)
+}
+
+fn block<S: Scalar>(level: &Level<S>, rings: usize, index: usize, mirror: bool) -> Result<Block<S>, Error> {
+    if !level.symmetric {
+        return Err(Error::NotSymmetric);
+    }
+    let net = FourierNet::new(numbering(level, rings), index, mirror)?;
+    let sites = net.rows();
+    // one computed row for each orbit, from which the rows of all its unknowns follow
+    let orbits: Vec<_> = sites.iter().map(|&site| net.orbit(site)).collect();
+    let mut distinct = orbits.clone();
+    distinct.sort();
+    distinct.dedup();
+    let values = refine(level, &net, &distinct)?;
+    let rows = sites.iter().zip(&orbits).map(|(&site, orbit)| {
+        let position = distinct.binary_search(orbit).expect("every orbit was computed");
+        net.unknown_row(site, &values[position])
+    });
+    let matrix = Matrix::from_rows(rows.collect(), net.size());
+    Ok(if mirror {
+        Block::Real(matrix.map(|(re, _)| re))
+    } else {
+        Block::Complex(matrix)
+    })
+}
+
+/// The blocks of index 0 to N/2; block N-k is the complex conjugate of block k.
+///
+/// # Errors
+/// As [`fourier_block`].
+pub fn fourier_blocks<S: Scalar>(level: &Level<S>, rings: usize) -> Result<Vec<Block<S>>, Error> {
+    (0..=level.fan.sectors() / 2)
+        .map(|index| fourier_block(level, rings, index))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use eigenring_scheme::families::{catmull_clark, doo_sabin, tension};
+    use eigenring_scheme::lambda::{Bounds, Domain, Relaxation};
+    use eigenring_scheme::{PointNet, Scheme, Site};
+
+    fn times(a: Complex<f64>, b: Complex<f64>) -> Complex<f64> {
+        (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
+    }
+
+    /// `sum_j M[row of sector 0, column of sector j] w^{k j}`: the block by the discrete Fourier transform of the matrix.
+    fn transformed(matrix: &Matrix<f64>, numbering: Numbering, index: usize) -> Matrix<Complex<f64>> {
+        let n = numbering.fan.sectors();
+        let net = FourierNet::<f64>::new(numbering, index, false).unwrap();
+        let sites = net.rows();
+        let position = |site: Site, by: usize| numbering.index(site.rotated(numbering.fan, by as i64)).unwrap();
+        Matrix::from_fn(sites.len(), sites.len(), |row, column| {
+            if sites[column] == Site::CENTRE {
+                return (matrix[(position(sites[row], 0), 0)], 0.0);
+            }
+            (0..n).fold((0.0, 0.0), |sum, j| {
+                let angle = std::f64::consts::TAU * ((index * j) % n) as f64 / n as f64;
+                let entry = matrix[(position(sites[row], 0), position(sites[column], j))];
+                (sum.0 + entry * angle.cos(), sum.1 + entry * angle.sin())
+            })
+        })
+    }
+
+    /// Values at sector-0 sites in terms of the real unknowns: `v = T u`.
+    fn basis(numbering: Numbering, index: usize) -> Matrix<Complex<f64>> {
+        let net = FourierNet::<f64>::new(numbering, index, true).unwrap();
+        let sites = net.rows();
+        Matrix::from_fn(sites.len(), sites.len(), |row, column| {
+            let mut unknowns = vec![(0.0, 0.0); sites.len()];
+            unknowns[column] = (1.0, 0.0);
+            net.mode(&unknowns, sites[row]).unwrap()
+        })
+    }
+
+    fn product(a: &Matrix<Complex<f64>>, b: &Matrix<Complex<f64>>) -> Matrix<Complex<f64>> {
+        Matrix::from_fn(a.rows(), b.columns(), |i, j| {
+            (0..a.columns()).fold((0.0, 0.0), |sum, k| {
+                let term = times(a[(i, k)], b[(k, j)]);
+                (sum.0 + term.0, sum.1 + term.1)
+            })
+        })
+    }
+
+    fn distance(a: &Matrix<Complex<f64>>, b: &Matrix<Complex<f64>>) -> f64 {
+        let pairs = a.entries().iter().zip(b.entries());
+        pairs.map(|(a, b)| (a.0 - b.0).hypot(a.1 - b.1)).fold(0.0, f64::max)
+    }
+
+    fn schemes(valence: usize) -> Vec<Scheme<f64>> {
+        let mut schemes = vec![catmull_clark(valence).unwrap(), doo_sabin(valence).unwrap()];
+        for order in [3, 5, 6, 8] {
+            schemes.push(tension(valence, order, 0.4).unwrap());
+        }
+        for lambda in [0.3, 0.55, 0.7] {
+            let plane = Relaxation::new(valence).unwrap().plane(lambda).unwrap();
+            let domain = Domain::new(plane, Bounds::Sharp, 0.0).unwrap();
+            for [f2, f3] in domain.starts(3) {
+                schemes.push(plane.stencil(f2, f3).weights.scheme("lambda", valence).unwrap());
+            }
+        }
+        schemes
+    }
+
+    #[test]
+    fn fourier_blocks_are_the_transform_of_the_dense_matrix() {
+        for valence in 3..=20 {
+            for scheme in schemes(valence) {
+                let level = scheme.level(0);
+                let rings = scheme.closed_rings().unwrap() + 1;
+                let matrix = local_matrix(level, rings).unwrap();
+                for index in [0, 1, 2, 3, valence / 2, valence - 1] {
+                    let index = index % valence;
+                    let expected = transformed(&matrix, numbering(level, rings), index);
+                    let complex = block(level, rings, index, false).unwrap().to_complex();
+                    assert!(distance(&complex, &expected) < 1e-14, "{} {valence} {index}", scheme.name);
+                    // and the real block is the same map in other unknowns
+                    let real = block(level, rings, index, true).unwrap().to_complex();
+                    let basis = basis(numbering(level, rings), index);
+                    let error = distance(&product(&complex, &basis), &product(&basis, &real));
+                    assert!(error < 4e-15, "{} {valence} {index}: {error}", scheme.name);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn refinement_of_points_is_multiplication_by_the_matrix() {
+        for scheme in schemes(5) {
+            let level = scheme.level(0);
+            let rings = scheme.closed_rings().unwrap() + 2;
+            let (matrix, numbering) = (local_matrix(level, rings).unwrap(), numbering(level, rings));
+            let points: Vec<[f64; 1]> = (0..numbering.count()).map(|i| [(i as f64 * 0.7).sin()]).collect();
+            let net = PointNet {
+                numbering,
+                points: points.clone(),
+            };
+            let refined = refine(level, &net, &numbering.sites()).unwrap();
+            for (row, [value]) in refined.iter().enumerate() {
+                let expected: f64 = matrix.row(row).iter().zip(&points).map(|(m, p)| m * p[0]).sum();
+                assert!((value - expected).abs() < 1e-14);
+            }
+        }
+    }
+
+    #[test]
+    fn too_few_rings_are_an_error() {
+        let scheme = tension::<f64>(5, 8, 1.0).unwrap();
+        assert!(matches!(local_matrix(&scheme.limit, 2), Err(Error::Scheme(_))));
+    }
+}
