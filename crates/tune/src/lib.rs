@@ -1,1 +1,4 @@
-//! stub
+//! How to find a scheme.
+
+pub mod objective;
+pub mod search;

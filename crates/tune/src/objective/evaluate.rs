@@ -1,0 +1,288 @@
+//! The unnormalised parts of the objective and their derivatives with respect to the coefficients of the maps.
+//!
+//! Two passes over the Gauss points. The first computes Hessians and Jacobians and, by summing them, the fitted second
+//! derivatives; the second the weights, which depend on the fit, and the squared errors. With `J` the Jacobian (area per
+//! parameter area), `A = sum J` over the points with their quadrature weights, and `q` the weighted squared error at a point,
+//!
+//! ```text
+//! fit = rho <h>,  E = <q>,  <f> = sum J f / A
+//! dE = ( sum [ dJ (q - E) + J q_h dh ] + (sum J q_fit) dfit ) / A
+//! ```
+//!
+//! and `dfit` alike. `dh` is known in closed form: Hessians are linear in the height's coefficients, and with respect to the
+//! corner radius, which moves (x, y), they are transported (see `jet`). So E costs one evaluation and one adjoint of the error,
+//! whatever the number of coefficients.
+
+use super::fields::{Block, Derivatives, Fields, Turn};
+use super::jet::{Frame, Jet, Spin, Velocity};
+use super::lanes::Lanes;
+use super::maps::{self, Annuli, Saddle};
+use super::weight::Weight;
+
+/// The numbers that make the maps of the fields.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Coefficients<S> {
+    /// The corner radius R.
+    pub radius: S,
+    /// Factors of Z0 and Z1.
+    pub saddle: [S; 2],
+    /// Factors of C0, C1 and C2: the first ring V, E, F of block 0.
+    pub cup: [S; 3],
+}
+
+/// A number with its derivatives with respect to the corner radius and the height's coefficients.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slope<const C: usize> {
+    pub value: f64,
+    pub by_radius: f64,
+    pub by_height: [f64; C],
+}
+
+/// What an evaluation yields, unnormalised: fits and parts, saddles in the order real, imaginary.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Outcome {
+    pub cup_fit: f64,
+    pub saddle_fits: [f64; 2],
+    pub cup: Slope<3>,
+    pub saddles: [Slope<2>; 2],
+    /// The smallest Jacobian over the points.
+    pub jacobian_min: f64,
+}
+
+/// The maps at a block of points.
+#[derive(Clone, Copy)]
+pub(super) struct Sample {
+    /// Quadrature weight times Jacobian.
+    area: Lanes,
+    pub saddle: Saddle,
+    pub cup: Spin,
+    jacobian: Lanes,
+}
+
+/// Their rates of change.
+#[derive(Clone, Copy)]
+struct Rates {
+    /// Of the area, relative, with respect to the corner radius.
+    divergence: Lanes,
+    /// With respect to R, then to the factors of Z0, Z1.
+    saddle: [Saddle; 3],
+    /// With respect to R, then to the factors of C0, C1, C2.
+    cup: [Spin; 4],
+}
+
+/// The sign that tells the real from the imaginary saddle.
+pub(super) const SIGNS: [f64; 2] = [1.0, -1.0];
+
+#[inline(always)]
+fn affine(base: &Derivatives, slope: &Derivatives, factor: f64) -> Derivatives {
+    std::array::from_fn(|i| base[i] + slope[i] * factor)
+}
+
+/// The maps at a block, and their rates if asked for.
+#[inline(always)]
+fn sample<const GRADIENT: bool>(block: &Block, c: &Coefficients<f64>) -> (Sample, Option<Rates>) {
+    let x = affine(&block.x0[0], &block.x1[0], c.radius);
+    let y = affine(&block.x0[1], &block.x1[1], c.radius);
+    let frame = Frame::new(&x, &y);
+    let z0 = [frame.jet(&block.z0[0]), frame.jet(&block.z0[1])];
+    let z1 = [frame.jet(&block.z1[0]), frame.jet(&block.z1[1])];
+    let cups = [0, 1, 2].map(|i| frame.jet(&block.cup[i]));
+    let z = [0, 1].map(|i| z0[i].combine(c.saddle[0], z1[i], c.saddle[1]));
+    let cup = (cups[0].combine(c.cup[0], cups[1], c.cup[1])).combine(1.0, cups[2], c.cup[2]);
+    let saddle = |jets: &[Jet; 2]| Saddle::new(jets[0].hessian, jets[1].hessian);
+    let sample = Sample {
+        area: block.weight * frame.jacobian,
+        saddle: saddle(&z),
+        cup: cup.hessian,
+        jacobian: frame.jacobian,
+    };
+    let rates = GRADIENT.then(|| {
+        let velocity = Velocity::new(frame.jet(&block.x1[0]), frame.jet(&block.x1[1]));
+        let moved = Saddle::new(velocity.transport(&z[0]), velocity.transport(&z[1]));
+        Rates {
+            divergence: velocity.divergence,
+            saddle: [moved, saddle(&z0), saddle(&z1)],
+            cup: [
+                velocity.transport(&cup),
+                cups[0].hessian,
+                cups[1].hessian,
+                cups[2].hessian,
+            ],
+        }
+    });
+    (sample, rates)
+}
+
+/// The sums of a mean `<h>` and of its derivatives.
+#[derive(Clone, Copy)]
+struct Moment<const R: usize> {
+    value: Lanes,
+    rates: [Lanes; R],
+}
+
+impl<const R: usize> Moment<R> {
+    const ZERO: Self = Moment {
+        value: Lanes::ZERO,
+        rates: [Lanes::ZERO; R],
+    };
+
+    /// The fit `factor * value / area` and its derivatives; the first rate is that with respect to the corner radius.
+    fn fit<const C: usize>(&self, factor: f64, area: f64, area_rate: f64) -> Slope<C> {
+        let value = factor * self.value.sum() / area;
+        Slope {
+            value,
+            by_radius: (factor * self.rates[0].sum() - value * area_rate) / area,
+            by_height: std::array::from_fn(|i| factor * self.rates[i + 1].sum() / area),
+        }
+    }
+}
+
+/// Evaluates all three parts; without `GRADIENT` the same value, bit for bit, and void derivatives.
+pub(super) fn evaluate<const GRADIENT: bool>(
+    fields: &Fields,
+    turns: &[Turn],
+    annuli: &Annuli,
+    weight: Option<&Weight>,
+    coefficients: &Coefficients<f64>,
+) -> Outcome {
+    let mut samples = Vec::with_capacity(fields.blocks.len());
+    let mut rates = Vec::with_capacity(if GRADIENT { fields.blocks.len() } else { 0 });
+    let mut jacobian_min = f64::INFINITY;
+    let mut area = Moment::<1>::ZERO;
+    let mut cup = Moment::<4>::ZERO;
+    let mut saddles = [Moment::<3>::ZERO; 2];
+    let fitted = |saddle: &Saddle, sign: f64| saddle.y.re + saddle.v.re * (sign * annuli.mean_turn);
+    for block in &fields.blocks {
+        let (point, rate) = sample::<GRADIENT>(block, coefficients);
+        jacobian_min = point.jacobian.0.iter().copied().fold(jacobian_min, f64::min);
+        area.value += point.area;
+        cup.value += point.area * point.cup.t;
+        for (moment, sign) in saddles.iter_mut().zip(SIGNS) {
+            moment.value += point.area * fitted(&point.saddle, sign);
+        }
+        if let Some(rate) = rate {
+            let growth = point.area * rate.divergence;
+            area.rates[0] += growth;
+            cup.rates[0] += growth * point.cup.t;
+            for (sum, rate) in cup.rates.iter_mut().zip(&rate.cup) {
+                *sum += point.area * rate.t;
+            }
+            for (moment, sign) in saddles.iter_mut().zip(SIGNS) {
+                moment.rates[0] += growth * fitted(&point.saddle, sign);
+                for (sum, rate) in moment.rates.iter_mut().zip(&rate.saddle) {
+                    *sum += point.area * fitted(rate, sign);
+                }
+            }
+            rates.push(rate);
+        }
+        samples.push(point);
+    }
+    let (total, growth) = (area.value.sum(), area.rates[0].sum());
+    let cup_fit = cup.fit::<3>(annuli.rho, total, growth);
+    let saddle_fits = saddles.map(|moment| moment.fit::<2>(annuli.rho, total, growth));
+
+    let mut cup = Sum::<4>::ZERO;
+    let mut parts = [Sum::<3>::ZERO; 2];
+    for (i, point) in samples.iter().enumerate() {
+        let rate = rates.get(i);
+        let error = maps::cup(&point.cup, cup_fit.value, annuli, weight);
+        cup.add(point.area, error.value, error.by_fit, rate, |rate, k| {
+            error.by_hessian.dot(rate.cup[k])
+        });
+        for ((part, fit), sign) in parts.iter_mut().zip(&saddle_fits).zip(SIGNS) {
+            let error = maps::saddle::<GRADIENT>(&point.saddle, sign, fit.value, annuli, turns, weight);
+            part.add(point.area, error.value, error.by_fit, rate, |rate, k| {
+                error.by_hessian.dot(&rate.saddle[k])
+            });
+        }
+    }
+    let classes = turns.len() as f64;
+    Outcome {
+        cup_fit: cup_fit.value,
+        saddle_fits: saddle_fits.map(|fit| fit.value),
+        cup: cup.mean(&cup_fit, 1.0, total, growth),
+        saddles: [0, 1].map(|i| parts[i].mean(&saddle_fits[i], classes, total, growth)),
+        jacobian_min,
+    }
+}
+
+/// The sums of one part.
+struct Sum<const R: usize> {
+    value: Lanes,
+    /// `sum dJ q`.
+    growth: Lanes,
+    /// `sum J q_fit`.
+    by_fit: Lanes,
+    /// `sum J q_h dh`.
+    rates: [Lanes; R],
+}
+
+impl<const R: usize> Sum<R> {
+    const ZERO: Self = Sum {
+        value: Lanes::ZERO,
+        growth: Lanes::ZERO,
+        by_fit: Lanes::ZERO,
+        rates: [Lanes::ZERO; R],
+    };
+
+    #[inline(always)]
+    fn add(
+        &mut self,
+        area: Lanes,
+        value: Lanes,
+        by_fit: Lanes,
+        rates: Option<&Rates>,
+        dot: impl Fn(&Rates, usize) -> Lanes,
+    ) {
+        let part = area * value;
+        self.value += part;
+        if let Some(rates) = rates {
+            self.growth += part * rates.divergence;
+            self.by_fit += area * by_fit;
+            for (k, sum) in self.rates.iter_mut().enumerate() {
+                *sum += area * dot(rates, k);
+            }
+        }
+    }
+
+    /// The part and its derivatives, from sums over `classes` sector classes.
+    fn mean<const C: usize>(&self, fit: &Slope<C>, classes: f64, area: f64, area_rate: f64) -> Slope<C> {
+        let divisor = classes * area;
+        let value = self.value.sum() / divisor;
+        let by_fit = self.by_fit.sum();
+        Slope {
+            value,
+            by_radius: (self.growth.sum() + self.rates[0].sum() + by_fit * fit.by_radius) / divisor
+                - value * area_rate / area,
+            by_height: std::array::from_fn(|i| (self.rates[i + 1].sum() + by_fit * fit.by_height[i]) / divisor),
+        }
+    }
+}
+
+/// Extremes over all sectors and points of the Gauss curvature's numerator `z_xx z_yy - z_xy^2`, unnormalised, as
+/// (min, max) of the cup and of the two saddles.
+pub(super) fn curvature_extremes(
+    fields: &Fields,
+    turns: &[Turn],
+    coefficients: &Coefficients<f64>,
+) -> ((f64, f64), [(f64, f64); 2]) {
+    let none = (f64::INFINITY, f64::NEG_INFINITY);
+    let (mut cup, mut saddles) = (none, [none; 2]);
+    let widen = |range: &mut (f64, f64), values: Lanes| {
+        for value in values.0 {
+            *range = (range.0.min(value), range.1.max(value));
+        }
+    };
+    for block in &fields.blocks {
+        let (point, _) = sample::<false>(block, coefficients);
+        widen(&mut cup, point.cup.t * point.cup.t - point.cup.s.norm_square());
+        for (range, sign) in saddles.iter_mut().zip(SIGNS) {
+            let (k0, k1) = point.saddle.curvature(sign);
+            for turn in turns {
+                let signed = k0 + k1.re * Lanes::splat(turn.t.re) - k1.im * Lanes::splat(turn.t.im);
+                widen(range, -signed);
+            }
+        }
+    }
+    (cup, saddles)
+}
