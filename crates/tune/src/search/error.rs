@@ -1,0 +1,25 @@
+//! What can go wrong in a search.
+
+/// Why there is no optimum.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The function is finite at no starting point.
+    #[error("at N = {valence}, lambda = {lambda} the objective is finite at none of {points} starting points")]
+    NoFiniteValue {
+        /// The valence.
+        valence: usize,
+        /// The subdominant eigenvalue.
+        lambda: f64,
+        /// How many points were tried.
+        points: usize,
+    },
+    /// A given starting point is not a number.
+    #[error("starting point f2 = {f2}, f3 = {f3}: accepted are finite numbers")]
+    NotFinite {
+        /// What was given.
+        f2: f64,
+        /// What was given.
+        f3: f64,
+    },
+}
