@@ -29,11 +29,13 @@ mod check;
 mod constraint;
 mod curves;
 mod starts;
+mod strips;
 #[cfg(test)]
 mod tests;
 
 pub use check::InfeasiblePoint;
 pub use constraint::{Constraint, Curve, Root};
+pub use strips::Strip;
 
 use super::Plane;
 use crate::Error;
@@ -152,7 +154,7 @@ impl Domain {
         let (lambda, sg) = (plane.lambda, plane.s * plane.lambda);
         let end = |f3, edge| F3End { f3, edge };
         match plane.valence {
-            3 => return [mu, lambda].map(|f3| end(f3, Some(Constraint::E1))),
+            3 => return [mu, lambda].map(|f3| end(f3, None)),
             4 => return [end(mu, Some(Constraint::F3EqualsMu)); 2],
             _ => {}
         }
@@ -206,17 +208,38 @@ impl Domain {
                 phi: self.plane.phi,
             });
         };
+        let edge_outside = |f3: f64| {
+            let row = Row::new(&self.plane, f3);
+            (!self.inner_blocks_hold(&row, f3)).then_some(Constraint::InnerBlocks)
+        };
+        let moved = |from, to| {
+            let (f3, outside) = bisect(at(from), at(to), feasible);
+            F3End {
+                f3,
+                edge: edge_outside(outside),
+            }
+        };
         let ends = [
-            (first > 0).then(|| bisect(at(first), at(first - 1), feasible)),
-            // the corners at N = 3, f3 = lambda are limits of feasible points
-            (last < Self::ROWS && self.plane.valence > 3).then(|| bisect(at(last), at(last + 1), feasible)),
+            (first > 0).then(|| moved(first, first - 1)),
+            (last < Self::ROWS).then(|| moved(last, last + 1)),
         ];
         for (end, moved) in self.f3.iter_mut().zip(ends) {
-            if let Some(f3) = moved {
-                *end = F3End { f3, edge: None };
-            }
+            *end = moved.unwrap_or(*end);
         }
         Ok(())
+    }
+
+    /// The bounds on f3 from the blocks before the last, `p = g3 f3` being every block's determinant. They are implied by
+    /// the others at kappa = 0, and at any kappa that is small against `1 - s lambda`.
+    fn inner_blocks_hold(&self, row: &Row<f64>, f3: f64) -> bool {
+        let (mu, m, p) = (self.plane.mu(), self.modulus_bound(), row.g3 * f3);
+        match self.plane.valence {
+            3 => true,
+            4 => p <= m * self.plane.lambda,
+            5 => p <= m * mu,
+            // block 3 has the largest trace; with the last block's bound this is |eigenvalues| <= m for all between
+            _ => p <= m * m && m * m - (row.g3 + f3 + row.h * (1.0 + self.plane.cosine(3))) * m + p >= 0.0,
+        }
     }
 
     /// The feasible f2 at an f3 that fulfils the constraints on f3 alone.
@@ -225,8 +248,8 @@ impl Domain {
         let row = Row::new(plane, f3);
         let end = |f2, curve| F2End { f2, curve };
         let (below_one, room) = (1.0 - row.g3 - 2.0 * row.h, row.t - self.margin * mu);
-        // a negative d1 whatever f2, or z0 below -m for every positive beta; not a number at a pole
-        if !(below_one >= 0.0 && room > 0.0 && row.h >= 0.0) {
+        // no f2 makes d1 >= 0, or z0 >= -m with a positive beta; h = 0 only on limits of the domain at N = 3
+        if !(below_one >= 0.0 && room > 0.0 && row.h > 0.0 && self.inner_blocks_hold(&row, f3)) {
             return Vec::new();
         }
         let theta = (plane.lambda - f3) / (2.0 * plane.cos_half_sector());
@@ -280,12 +303,12 @@ fn smallest_positive_root(a: f64, b: f64, c: f64) -> f64 {
     }
 }
 
-/// The last number before `outside` that is `feasible`, between it and a feasible `inside`, to the last bit.
-fn bisect(mut inside: f64, mut outside: f64, feasible: impl Fn(f64) -> bool) -> f64 {
+/// Neighbouring numbers, the first of them `feasible` and the second not, between two numbers with these properties.
+fn bisect(mut inside: f64, mut outside: f64, feasible: impl Fn(f64) -> bool) -> (f64, f64) {
     loop {
         let middle = 0.5 * (inside + outside);
         if middle == inside || middle == outside {
-            return inside;
+            return (inside, outside);
         }
         if feasible(middle) {
             inside = middle;

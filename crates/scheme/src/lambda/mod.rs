@@ -14,7 +14,7 @@ mod plane;
 mod relaxation;
 mod table;
 
-pub use domain::{Bounds, Constraint, Curve, Domain, F2End, F2Interval, F3End, InfeasiblePoint, Root};
+pub use domain::{Bounds, Constraint, Curve, Domain, F2End, F2Interval, F3End, InfeasiblePoint, Root, Strip};
 pub use knots::LambdaKnots;
 pub use paper::{PAPER_TABLE_1, PaperRow};
 pub use plane::{LambdaStencil, Plane};

@@ -84,19 +84,18 @@ impl Domain {
         ];
         if n == 4 {
             slack.push((Constraint::F3EqualsMu, -(f3 - plane.mu()).abs()));
+            slack.push((Constraint::InnerBlocks, m - f3 * g3 / plane.lambda));
         } else if n > 4 {
             let second = |ev: f64| (f3 * g3 / ev).abs();
             let radius = |k: usize| spectral_radius(g3 + f3 + h * (1.0 + plane.cosine(k as i64)), f3 * g3);
-            let last = if self.bounds == Bounds::Paper || n % 2 == 0 {
-                g3.abs().max(f3.abs())
-            } else if n == 5 {
-                second(plane.mu())
-            } else {
-                radius(n / 2)
+            let exact = m - if n == 5 { second(plane.mu()) } else { radius(n / 2) };
+            let last = match self.bounds {
+                Bounds::Sharp => exact,
+                Bounds::Paper => exact.min(m + g3),
             };
             let inner = (3..n / 2).map(radius).fold(second(plane.lambda), f64::max);
             let inner = if n > 5 { inner.max(second(plane.mu())) } else { inner };
-            slack.push((Constraint::LastBlock, m - last));
+            slack.push((Constraint::LastBlock, last));
             slack.push((Constraint::InnerBlocks, m - inner));
         }
         for (_, value) in &mut slack {
@@ -135,7 +134,7 @@ impl Domain {
             })))
         };
         let f3_distance = (f3 - nearest).abs();
-        if !(f3_distance <= tolerance) {
+        if f3_distance.is_nan() || f3_distance > tolerance {
             let end = if f3 > upper.f3 { upper } else { lower };
             // where the domain ends in a point, the bound of f2 that is nearer to the given one names the end
             let edge = end.edge.or_else(|| self.nearest_end(f2, end.f3).map(|(c, _)| c));
@@ -144,11 +143,29 @@ impl Domain {
         match self.nearest_end(f2, nearest) {
             Some((_, distance)) if distance <= tolerance => Ok(()),
             Some((constraint, distance)) => refuse(constraint, "f2", distance),
-            None => refuse(Constraint::Theta, "f2", f64::INFINITY),
+            None => {
+                // an empty row, at a phi other than 6: name what is violated most
+                let worst = self.slack(f2, nearest).into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
+                refuse(
+                    worst.map_or(Constraint::Theta, |(constraint, _)| constraint),
+                    "f2",
+                    f64::INFINITY,
+                )
+            }
         }
     }
 
-    /// The last eigenvalue of block 0, beside 1 and mu.
+    /// The point with f3 moved into its range and then f2 to the nearest feasible one: the identity on the domain. `None`
+    /// for a NaN, or where the row is empty.
+    pub fn clamp(&self, f2: f64, f3: f64) -> Option<[f64; 2]> {
+        let f3 = f3.clamp(self.f3[0].f3, self.f3[1].f3);
+        let candidates = self.f2_intervals(f3).into_iter();
+        let candidates = candidates.map(|i| f2.clamp(i.lower.f2, i.upper.f2));
+        let nearest = candidates.min_by(|a, b| (a - f2).abs().total_cmp(&(b - f2).abs()))?;
+        (!nearest.is_nan()).then_some([nearest, f3])
+    }
+
+    /// The last eigenvalue of block 0, beside 1 and mu; like the stencil not a number where beta's denominator and `h` vanish.
     pub fn z0(&self, f2: f64, f3: f64) -> f64 {
         let plane = &self.plane;
         let (g3, h) = plane.g3_and_h(f3);
