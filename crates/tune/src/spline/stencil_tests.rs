@@ -127,7 +127,7 @@ fn stencils_stay_feasible_along_all_lambda() {
             .collect();
         let (f2, f3) = nearest(0.7);
         let optimum = (0.7, f2, f3);
-        let mut dense = grid(2000);
+        let mut dense = grid(1000);
         dense.extend(relaxation.kinks());
         dense.retain(|&lambda| (0.15..=0.9).contains(&lambda));
         let bounds = Feasible { valence, margin: 1e-6 };
