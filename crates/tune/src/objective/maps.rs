@@ -30,7 +30,10 @@
 //! k0 = |v|^2 + |y|^2 - |T|^2/2,  k1 = sign (2 v conj y - T^2/2)
 //! ```
 //!
-//! so the sectors enter through the sums of w, w t, w t^2 (value) and w' q, w' q t (adjoint) alone.
+//! At N = 4, where t = -1 in all sectors, v and y are combined first, `y <- y - sign v, v <- 0`: each saddle is one of two independent
+//! modes, and the other one must not enter even as a sum that cancels.
+//!
+//! So the sectors enter through the sums of w, w t, w t^2 (value) and w' q, w' q t (adjoint) alone.
 
 use super::complex::Complex;
 use super::fields::Turn;
@@ -92,6 +95,25 @@ impl Saddle {
             t: Complex::new(re.t, im.t),
             v: half(re.s.re - im.s.im, re.s.im + im.s.re),
             y: half(re.s.re + im.s.im, re.s.im - im.s.re),
+        }
+    }
+
+    /// For `mean_turn = -1`, all sectors having t = -1: S as one component.
+    #[inline(always)]
+    fn folded(&self, sign: f64) -> Saddle {
+        Saddle {
+            t: self.t,
+            v: Saddle::ZERO.v,
+            y: self.y - scaled(self.v, sign),
+        }
+    }
+
+    /// The transpose of [`Saddle::folded`], for adjoints.
+    #[inline(always)]
+    fn unfolded(&self, sign: f64) -> Saddle {
+        Saddle {
+            v: scaled(self.y, -sign),
+            ..*self
         }
     }
 
@@ -184,8 +206,15 @@ pub(super) fn saddle<const GRADIENT: bool>(
     turns: &[Turn],
     weight: Option<&Weight>,
 ) -> Error<Saddle> {
-    let Annuli { rho, kappa, tau, .. } = *annuli;
-    let Saddle { t, v, y } = *saddle;
+    let Annuli {
+        rho,
+        kappa,
+        tau,
+        mean_turn,
+    } = *annuli;
+    let one_class = mean_turn != 0.0;
+    let saddle = if one_class { saddle.folded(sign) } else { *saddle };
+    let Saddle { t, v, y } = saddle;
     let g = Complex::new(Lanes::splat(fit) - y.re * rho, -y.im * rho);
     // 3 z + sign conj(z), and (3 |z|^2 + sign Re z^2)/2
     let (along, across) = (3.0 + sign, 3.0 - sign);
@@ -226,12 +255,17 @@ pub(super) fn saddle<const GRADIENT: bool>(
         )
         + scaled(y.scale(v0) + scaled(v1v, sign), 2.0 * scale);
     let by_curvature = v0 * k0 + v1.real_of_product(k1);
+    let by_hessian = Saddle {
+        t: by_t,
+        v: by_v,
+        y: by_y,
+    };
     Error {
         value,
-        by_hessian: Saddle {
-            t: by_t,
-            v: by_v,
-            y: by_y,
+        by_hessian: if one_class {
+            by_hessian.unfolded(sign)
+        } else {
+            by_hessian
         },
         by_fit: (w0 * g.re - w1v.re * (rho * sign)) * along - by_curvature * (2.0 * inverse(fit)),
     }
