@@ -241,6 +241,43 @@ impl<S: Scalar> FourierNet<S> {
         Ok(sum)
     }
 
+    /// The weight of a point in a linear form on the modes of this index, given the form's coefficients on the unknowns: if
+    /// `P` is any net, the sum of these weights times the points is the form's value on the unknowns of P's part of index k.
+    ///
+    /// # Errors
+    /// [`Error::BeyondNet`] if the net does not reach `site`.
+    pub fn functional(&self, coefficients: &[Complex<S>], site: Site) -> Result<Complex<S>, Error> {
+        if site == Site::CENTRE {
+            let part = self.centre() == 1;
+            return Ok(if part { coefficients[0] } else { (S::zero(), S::zero()) });
+        }
+        let own = coefficients[self.column(site)?];
+        let swapped = Site {
+            x: site.y,
+            y: site.x,
+            ..site
+        };
+        // the unknowns in terms of the values: r = v; r = w^{-k/2} v; p = w^{-k/2} (v + v')/2; q = w^{-k/2} (v - v')/2i
+        let (half_turns, own) = if !self.mirror || site.y == 0 {
+            (0, own)
+        } else if site.x == site.y {
+            (1, own)
+        } else {
+            let other = coefficients[self.column(swapped)?];
+            let half = S::ratio(1, 2);
+            let (p, q, sign) = if site.x > site.y {
+                (own, other, half)
+            } else {
+                (other, own, -half)
+            };
+            // (p -+ i q) / 2
+            (1, (half * p.0 + sign * q.1, half * p.1 - sign * q.0))
+        };
+        let phase = self.half_phase(2 * site.sector + half_turns);
+        let n = S::ratio(self.numbering.fan.sectors() as i64, 1);
+        Ok(times((phase.0 / n, -(phase.1 / n)), own))
+    }
+
     /// The block's row of the unknown at `site` (of [`FourierNet::rows`]), from the value of its orbit. Imaginary parts are
     /// zero with mirror symmetry.
     pub fn unknown_row(&self, site: Site, at_orbit: &[Complex<S>]) -> Vec<Complex<S>> {

@@ -276,7 +276,8 @@ mod tests {
     fn explicit_weights_need_no_table() {
         let spec: Spec = "lambda:lambda=0.5,f2=0.25,f3=0.25".parse().unwrap();
         let level = spec.scheme::<f64>(4).unwrap().limit;
-        let reference = catmull_clark::<f64>(4).unwrap().limit;
+        let reference = crate::families::catmull_clark_weights::<f64>(4);
+        let reference = reference.scheme("reference", 4).unwrap().limit;
         for &site in reference.passes[0].special.keys() {
             let (a, b) = (level.stencil(0, site).unwrap(), reference.stencil(0, site).unwrap());
             for (a, b) in a.terms().iter().zip(b.terms()) {

@@ -478,7 +478,7 @@ fn pass<S: Scalar>(rules: &PassRules) -> Pass<S> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::families::{catmull_clark, doo_sabin};
+    use crate::families::{catmull_clark_weights, doo_sabin};
 
     /// The module page's examples are the tests' input.
     fn example(kind: &str) -> String {
@@ -499,7 +499,8 @@ mod tests {
     fn the_one_ring_example_is_catmull_clark_with_another_notation() {
         let scheme = UserScheme::parse(&example("one-ring"), "x").unwrap();
         assert_eq!(scheme.name(), "mine");
-        let (ours, reference) = (scheme.scheme::<f64>(5).unwrap(), catmull_clark::<f64>(5).unwrap());
+        let ours = scheme.scheme::<f64>(5).unwrap();
+        let reference = catmull_clark_weights::<f64>(5).scheme("reference", 5).unwrap();
         for &site in reference.limit.passes[0].special.keys() {
             let (a, b) = (
                 ours.limit.stencil(0, site).unwrap(),

@@ -51,7 +51,10 @@ pub(crate) fn strong_components(size: usize, edge: impl Fn(usize, usize) -> bool
                 low[parent] = low[parent].min(low[node]);
             }
             if low[node] == order[node] {
-                let start = path.iter().rposition(|&n| n == node).expect("a node is on the path until its component is cut off");
+                let start = path
+                    .iter()
+                    .rposition(|&n| n == node)
+                    .expect("a node is on the path until its component is cut off");
                 let mut component = path.split_off(start);
                 for &member in &component {
                     on_path[member] = false;

@@ -110,7 +110,11 @@ fn eigenvalues<T: ComplexField<Real = f64> + Copy>(
     for i in 0..size {
         for j in 0..size {
             let size_of_entry = norm(entry(i, j));
-            largest = if size_of_entry.is_nan() { f64::NAN } else { largest.max(size_of_entry) };
+            largest = if size_of_entry.is_nan() {
+                f64::NAN
+            } else {
+                largest.max(size_of_entry)
+            };
             if !largest.is_finite() {
                 return Err(Error::Decomposition { size, largest });
             }
@@ -120,7 +124,9 @@ fn eigenvalues<T: ComplexField<Real = f64> + Copy>(
     let components = strong_components(size, |i, j| norm(entry(i, j)) > NEGLIGIBLE * largest);
     let mut all: Vec<BlockEigenvalue> = Vec::new();
     for component in components {
-        let part = Mat::from_fn(component.len(), component.len(), |i, j| entry(component[i], component[j]));
+        let part = Mat::from_fn(component.len(), component.len(), |i, j| {
+            entry(component[i], component[j])
+        });
         let scale = (0..component.len())
             .map(|i| (0..component.len()).map(|j| norm(part[(i, j)])).sum::<f64>())
             .fold(0.0, f64::max);
@@ -182,14 +188,20 @@ fn eigenspace<T: ComplexField<Real = f64> + Copy>(
     pair: impl Fn(T) -> Complex<f64>,
 ) -> Result<Eigenspace, Error> {
     let size = shifted.nrows();
-    let svd = shifted.svd().map_err(|_| Error::Decomposition { size, largest: f64::NAN })?;
+    let svd = shifted.svd().map_err(|_| Error::Decomposition {
+        size,
+        largest: f64::NAN,
+    })?;
     let singular: Vec<f64> = (0..size).map(|i| pair(svd.S().column_vector()[i]).0).collect();
     let largest = singular.first().copied().unwrap_or(0.0);
     if !largest.is_finite() {
         return Err(Error::Decomposition { size, largest });
     }
     // S - value = 0 only if the block is a multiple of the identity: then every vector is an eigenvector
-    let rank = singular.iter().filter(|&&s| s > NULL * largest && largest > 0.0).count();
+    let rank = singular
+        .iter()
+        .filter(|&&s| s > NULL * largest && largest > 0.0)
+        .count();
     if rank == size {
         return Err(Error::NotAnEigenvalue {
             value: value.0,
@@ -223,7 +235,9 @@ mod tests {
     }
 
     fn product(a: &Matrix<f64>, b: &Matrix<f64>) -> Matrix<f64> {
-        Matrix::from_fn(a.rows(), b.columns(), |i, j| (0..a.columns()).map(|k| a[(i, k)] * b[(k, j)]).sum())
+        Matrix::from_fn(a.rows(), b.columns(), |i, j| {
+            (0..a.columns()).map(|k| a[(i, k)] * b[(k, j)]).sum()
+        })
     }
 
     #[test]
@@ -241,14 +255,22 @@ mod tests {
         let space = block.eigenspace((0.5, 0.0), 0).unwrap();
         assert_eq!((space.right.len(), space.left.len()), (1, 1));
         let product: f64 = space.left[0].iter().zip(&space.right[0]).map(|(l, r)| l.0 * r.0).sum();
-        assert!(product.abs() < 1e-10, "left and right vectors of a defective eigenvalue are orthogonal");
+        assert!(
+            product.abs() < 1e-10,
+            "left and right vectors of a defective eigenvalue are orthogonal"
+        );
     }
 
     #[test]
     fn a_double_defective_value_is_found_to_full_accuracy() {
         let block = real(&[&[0.5, 1.0, 0.3], &[0.0, 0.5, 0.2], &[0.0, 0.0, 0.1]]);
         assert_eq!(
-            block.eigenvalues().unwrap().iter().map(|e| e.multiplicity).collect::<Vec<_>>(),
+            block
+                .eigenvalues()
+                .unwrap()
+                .iter()
+                .map(|e| e.multiplicity)
+                .collect::<Vec<_>>(),
             [2, 1]
         );
         // the same in one component

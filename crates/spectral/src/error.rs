@@ -19,7 +19,9 @@ pub enum Error {
         largest: f64,
     },
     /// A matrix has no eigenvalue near the given one.
-    #[error("{value} is not an eigenvalue of Fourier block {fourier}: the smallest singular value of S - {value} is {gap}")]
+    #[error(
+        "{value} is not an eigenvalue of Fourier block {fourier}: the smallest singular value of S - {value} is {gap}"
+    )]
     NotAnEigenvalue {
         /// The value.
         value: f64,
@@ -41,7 +43,9 @@ pub enum Error {
         expected: usize,
     },
     /// The eigenvalue is defective or so close to another that left and right eigenvectors are orthogonal.
-    #[error("eigenvalue {value} of Fourier block {fourier} is defective or nearly so: l.r = {product} for unit vectors")]
+    #[error(
+        "eigenvalue {value} of Fourier block {fourier} is defective or nearly so: l.r = {product} for unit vectors"
+    )]
     Defective {
         /// The eigenvalue.
         value: f64,
@@ -59,7 +63,9 @@ pub enum Error {
         fourier: usize,
     },
     /// A matrix file is not square or has no size that fits the valence.
-    #[error("a {rows} x {columns} matrix is no local matrix of valence {valence}: accepted are square ones of size 1 + {valence} R (R+1) around a vertex, {valence} (R+1)^2 around a face")]
+    #[error(
+        "a {rows} x {columns} matrix is no local matrix of valence {valence}: accepted are square ones of size 1 + {valence} R (R+1) around a vertex, {valence} (R+1)^2 around a face"
+    )]
     MatrixSize {
         /// Its rows.
         rows: usize,
@@ -69,7 +75,9 @@ pub enum Error {
         valence: usize,
     },
     /// A matrix is not block-circulant.
-    #[error("the matrix is not block-circulant for valence {valence}: entry ({row}, {column}) is {value}, but {rotated} one sector further")]
+    #[error(
+        "the matrix is not block-circulant for valence {valence}: entry ({row}, {column}) is {value}, but {rotated} one sector further"
+    )]
     NotCirculant {
         /// The valence.
         valence: usize,

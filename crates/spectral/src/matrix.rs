@@ -239,7 +239,11 @@ mod tests {
                     let index = index % valence;
                     let expected = transformed(&matrix, numbering(level, rings), index);
                     let complex = block(level, rings, index, false).unwrap().to_complex();
-                    assert!(distance(&complex, &expected) < 1e-14, "{} {valence} {index}", scheme.name);
+                    assert!(
+                        distance(&complex, &expected) < 1e-14,
+                        "{} {valence} {index}",
+                        scheme.name
+                    );
                     // and the real block is the same map in other unknowns
                     let real = block(level, rings, index, true).unwrap().to_complex();
                     let basis = basis(numbering(level, rings), index);

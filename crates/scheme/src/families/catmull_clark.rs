@@ -5,7 +5,7 @@
 //! vertex by `(1 - 7/(4N)) V + 3/(2N) mean E + 1/(4N) mean F`. The surface is C1 at every valence (Peters and Reif 1998);
 //! its curvature is unbounded for N >= 5 and zero in the limit at N = 3.
 
-use crate::{Error, OneRing, Scalar, Scheme};
+use crate::{Error, OneRing, Scalar, Scheme, Site};
 
 /// The one-ring weights at a valence.
 pub fn catmull_clark_weights<S: Scalar>(valence: usize) -> OneRing<S> {
@@ -28,8 +28,10 @@ pub fn catmull_clark_weights<S: Scalar>(valence: usize) -> OneRing<S> {
 /// # Errors
 /// [`Error::Valence`] below 3.
 pub fn catmull_clark<S: Scalar>(valence: usize) -> Result<Scheme<S>, Error> {
-    if valence < 3 {
-        return Err(Error::Valence { valence });
+    let mut scheme = catmull_clark_weights(valence.max(1)).scheme("catmull-clark", valence)?;
+    // edge and face points follow the regular rules, so the surface is regular up to the vertex itself
+    for pass in &mut scheme.limit.passes {
+        pass.special.retain(|&site, _| site == Site::CENTRE);
     }
-    catmull_clark_weights(valence).scheme("catmull-clark", valence)
+    Ok(scheme)
 }

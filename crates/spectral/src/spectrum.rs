@@ -1,0 +1,178 @@
+//! The eigenvalues of a local system, with Fourier indices and multiplicities.
+
+use crate::eigen::order;
+use crate::{Error, LocalSystem};
+use eigenring_scheme::Complex;
+
+/// An eigenvalue of the local matrix.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Eigenvalue {
+    /// The value as (real, imaginary).
+    pub value: Complex<f64>,
+    /// The Fourier index `k <= N/2`; blocks k and N-k have conjugate spectra and are listed once. `None` for rules that differ
+    /// from sector to sector.
+    pub fourier: Option<usize>,
+    /// The algebraic multiplicity in the whole local matrix: both blocks counted.
+    pub multiplicity: usize,
+    /// The number of independent eigenvectors in the whole local matrix; below the multiplicity if defective.
+    pub geometric: usize,
+}
+
+impl Eigenvalue {
+    /// The modulus.
+    pub fn modulus(&self) -> f64 {
+        self.value.0.hypot(self.value.1)
+    }
+
+    fn is_close(&self, other: &Eigenvalue) -> bool {
+        let distance = (self.value.0 - other.value.0).hypot(self.value.1 - other.value.1);
+        distance <= SAME * self.modulus().max(other.modulus())
+    }
+}
+
+/// Eigenvalues of different blocks closer than this, relatively, are the same: they come from independent computations whose
+/// errors are some rounding units times a moderate condition number.
+const SAME: f64 = 1e-9;
+
+/// The eigenvalues by falling modulus. Equal values of different Fourier indices are listed one by one, the smaller index
+/// first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spectrum {
+    /// The eigenvalues.
+    pub eigenvalues: Vec<Eigenvalue>,
+}
+
+impl LocalSystem {
+    /// All eigenvalues.
+    ///
+    /// # Errors
+    /// [`Error::Decomposition`] if an entry is not finite or an iteration fails.
+    pub fn spectrum(&self) -> Result<Spectrum, Error> {
+        let n = self.valence();
+        let mut eigenvalues = Vec::new();
+        for (k, block) in self.blocks().iter().enumerate() {
+            let twice = self.symmetric() && k != 0 && 2 * k != n;
+            let copies = 1 + usize::from(twice);
+            for eigenvalue in block.eigenvalues()? {
+                let geometric = match eigenvalue.multiplicity {
+                    1 => 1,
+                    // a cluster that rounding keeps from being singular has at least one vector all the same
+                    _ => block
+                        .eigenspace(eigenvalue.value, k)
+                        .map_or(1, |space| space.right.len()),
+                };
+                eigenvalues.push(Eigenvalue {
+                    value: eigenvalue.value,
+                    fourier: self.symmetric().then_some(k),
+                    multiplicity: copies * eigenvalue.multiplicity,
+                    geometric: copies * geometric,
+                });
+            }
+        }
+        eigenvalues.sort_by(|a, b| order(a.value, b.value).then(a.fourier.cmp(&b.fourier)));
+        // equal up to rounding: by Fourier index
+        let mut start = 0;
+        for end in 1..=eigenvalues.len() {
+            if end == eigenvalues.len() || !eigenvalues[end].is_close(&eigenvalues[start]) {
+                eigenvalues[start..end].sort_by_key(|e| e.fourier);
+                start = end;
+            }
+        }
+        Ok(Spectrum { eigenvalues })
+    }
+}
+
+impl Spectrum {
+    /// The eigenvalue of largest modulus once the dominant one is taken away.
+    pub fn subdominant(&self) -> Option<&Eigenvalue> {
+        self.eigenvalues.get(1)
+    }
+
+    /// The eigenvalue of largest modulus below the subdominant one.
+    pub fn subsubdominant(&self) -> Option<&Eigenvalue> {
+        let subdominant = self.subdominant()?;
+        self.eigenvalues[2..]
+            .iter()
+            .find(|e| e.modulus() < subdominant.modulus() * (1.0 - SAME))
+    }
+
+    /// `mu / lambda^2`: 1 for bounded curvature without a flat spot. Moduli are taken; `None` where lambda is 0.
+    pub fn curvature_ratio(&self) -> Option<f64> {
+        let lambda = self.subdominant()?.modulus();
+        (lambda > 0.0).then(|| self.subsubdominant().map_or(0.0, |mu| mu.modulus() / (lambda * lambda)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use eigenring_scheme::families::{catmull_clark, doo_sabin, tension};
+
+    #[test]
+    fn catmull_clark_in_closed_form() {
+        // lambda = (5 + c + sqrt((c+9)(c+1)))/16, and rings further out add 1/8, 1/16, 1/32, 1/64 and zeros
+        for valence in 3..=64 {
+            let scheme = catmull_clark::<f64>(valence).unwrap();
+            let c = (std::f64::consts::TAU / valence as f64).cos();
+            let lambda = (5.0 + c + ((c + 9.0) * (c + 1.0)).sqrt()) / 16.0;
+            for rings in 1..=3 {
+                let system = LocalSystem::new(&scheme.limit, rings).unwrap();
+                let spectrum = system.spectrum().unwrap();
+                let count: usize = spectrum.eigenvalues.iter().map(|e| e.multiplicity).sum();
+                assert_eq!(count, system.numbering().count());
+                let subdominant = spectrum.subdominant().unwrap();
+                assert!((subdominant.value.0 - lambda).abs() < 1e-14);
+                assert_eq!((subdominant.fourier, subdominant.multiplicity), (Some(1), 2));
+                if rings == 3 {
+                    let zero = spectrum.eigenvalues.iter().filter(|e| e.modulus() < 1e-15);
+                    let zeros: usize = zero.map(|e| e.multiplicity).sum();
+                    assert!(zeros >= 6 * valence, "the points of ring 3 depend on inner rings only");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn doo_sabin_has_one_half_and_one_quarter() {
+        for valence in 3..12 {
+            let scheme = doo_sabin::<f64>(valence).unwrap();
+            let spectrum = LocalSystem::new(&scheme.limit, 0).unwrap().spectrum().unwrap();
+            for e in &spectrum.eigenvalues {
+                let expected = match e.fourier {
+                    Some(0) => 1.0,
+                    Some(1) => 0.5,
+                    _ => 0.25,
+                };
+                assert!((e.value.0 - expected).abs() < 1e-15 && e.value.1 == 0.0);
+            }
+            let expected = if valence == 3 { 0.0 } else { 1.0 };
+            assert!((spectrum.curvature_ratio().unwrap() - expected).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn order_three_in_closed_form() {
+        // ev_m = u (N u + 2N - 4 + 4 c_m) / (N (1+u)^2), m >= 1
+        for (valence, u) in [(3, 0.4), (5, 1.0), (6, 2.0), (8, 0.1)] {
+            let scheme = tension::<f64>(valence, 3, u).unwrap();
+            let spectrum = LocalSystem::new(scheme.level(0), 0).unwrap().spectrum().unwrap();
+            let n = valence as f64;
+            for e in spectrum.eigenvalues.iter().filter(|e| e.fourier != Some(0)) {
+                let c = (std::f64::consts::TAU * e.fourier.unwrap() as f64 / n).cos();
+                let expected = u * (n * u + 2.0 * n - 4.0 + 4.0 * c) / (n * (1.0 + u) * (1.0 + u));
+                assert!((e.value.0 - expected).abs() < 1e-15);
+            }
+        }
+    }
+
+    #[test]
+    fn a_defective_eigenvalue_shows_in_its_multiplicities() {
+        let scheme = tension::<f64>(3, 3, 1.0).unwrap();
+        let spectrum = LocalSystem::new(&scheme.limit, 1).unwrap().spectrum().unwrap();
+        // the outer ring has 1/4 in block 0 as well
+        assert_eq!(spectrum.subdominant().unwrap().fourier, Some(0));
+        let lambda = spectrum.eigenvalues.iter().find(|e| e.fourier == Some(1)).unwrap();
+        assert!((lambda.value.0 - 0.25).abs() < 1e-14);
+        assert_eq!((lambda.multiplicity, lambda.geometric), (4, 2));
+    }
+}
