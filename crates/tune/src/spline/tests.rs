@@ -246,7 +246,7 @@ fn the_constrained_optimum_cannot_be_improved() {
     let best = objective(&space, &samples, fit.spline.coefficients());
     let mut random = noise(3);
     let mut moved = 0;
-    for _ in 0..3000 {
+    for _ in 0..1000 {
         let mut step: Vec<f64> = (0..17).map(|_| 2.0 * random() - 1.0).collect();
         for q in &equalities {
             let t: f64 = q.iter().zip(&step).map(|(a, b)| a * b).sum();
@@ -274,7 +274,7 @@ fn the_constrained_optimum_cannot_be_improved() {
             assert!(objective(&space, &samples, &coefficients) >= best - 1e-15);
         }
     }
-    assert!(moved > 20, "only {moved} feasible moves");
+    assert!(moved > 5, "only {moved} feasible moves");
 }
 
 #[test]
