@@ -55,7 +55,7 @@ impl Function for Objective {
 /// From where to descend.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Starts {
-    /// From the local minima of the grid of starting points.
+    /// From the local minima of the grid of starting points; from all of its points if that shows the function to be rough.
     #[default]
     Grid,
     /// From every point of the grid.
@@ -128,6 +128,15 @@ impl Search {
 /// minima are 1e-2 and more apart (observed for N = 3..20).
 pub const MERGE: f64 = 1e-5;
 
+/// If so many distinct minima have values within [`COMPARABLE`] of the lowest, the grid is too coarse for the function, and
+/// [`Starts::Grid`] turns into [`Starts::Full`]. Of N = 3..20 this happens only at N = 3 and lambda < 0.22: there mu is close to 1/8, E is a
+/// plateau with a valley 1e-3 wide, and as fitted curvatures are nearly zero in it, the weight of a Gauss point is a step and E a
+/// staircase. Elsewhere there are at most two.
+const ROUGH: usize = 3;
+
+/// See [`ROUGH`]; empirical.
+const COMPARABLE: f64 = 2.0;
+
 /// Searches a domain for its local minima.
 ///
 /// # Errors
@@ -142,13 +151,20 @@ pub fn search(function: &impl Function, domain: &Domain, starts: Starts) -> Resu
         evaluations: grid.len(),
         gradient_evaluations: 0,
     };
-    for start in grid.starts(starts) {
-        let Some(end) = Descent::GRID.run(function, &frame, start) else {
-            continue;
-        };
-        search.descents += 1;
-        search.gradient_evaluations += end.evaluations;
-        insert(&mut search.optima, end.optimum, &frame);
+    let descend = |from: Vec<[f64; 2]>, search: &mut Search| {
+        for start in from {
+            if let Some(end) = Descent::GRID.run(function, &frame, start) {
+                search.descents += 1;
+                search.gradient_evaluations += end.evaluations;
+                insert(&mut search.optima, end.optimum, &frame);
+            }
+        }
+    };
+    descend(grid.starts(starts), &mut search);
+    let lowest = search.optima.iter().map(|o| o.total).fold(f64::INFINITY, f64::min);
+    let comparable = search.optima.iter().filter(|o| o.total <= COMPARABLE * lowest);
+    if starts == Starts::Grid && comparable.count() >= ROUGH {
+        descend(grid.starts(Starts::Full), &mut search);
     }
     if search.optima.is_empty() {
         return Err(no_finite_value(domain, grid.len()));

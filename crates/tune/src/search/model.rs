@@ -74,11 +74,14 @@ impl Model {
         best
     }
 
-    /// The candidates of the model without the domain's curves: the stationary point, and on each side of the box its stationary
+    /// The candidates of the model without the domain's curves: the stationary point, the end of the box in the direction of
+    /// steepest descent, and on each side of the box its stationary
     /// point and ends.
     fn box_candidates(&self, rows: [f64; 2], radius: f64, flat: bool) -> Vec<[f64; 2]> {
         let ([gx, gy], [hxx, hxy, hyy]) = (self.gradient, self.hessian);
-        let mut steps = Vec::with_capacity(12);
+        // straight down, where all else is out of the domain
+        let down = radius / gx.abs().max(gy.abs());
+        let mut steps = vec![[-gx * down, -gy * down]];
         let det = hxx * hyy - hxy * hxy;
         if flat && hxx > 0.0 {
             steps.push([-gx / hxx, 0.0]);
@@ -99,23 +102,31 @@ impl Model {
         steps
     }
 
-    /// Steps in f3 to try on a boundary curve: the stationary point of the second-order model along it, the ends of the box.
+    /// Steps in f3 to try on a boundary curve: the stationary point of the second-order model along it, the ends of the box. A steep
+    /// curve (around the hole at N = 3 they become vertical) is followed by x instead of y.
     fn arc_candidates(&self, arc: &Arc, rows: [f64; 2], radius: f64) -> Vec<f64> {
         let ([gx, gy], [hxx, hxy, hyy]) = (self.gradient, self.hessian);
         let &Arc {
             offset, slope, bend, ..
         } = arc;
-        let linear = (gx + hxx * offset) * slope + gy + hxy * offset;
-        let square = (gx + hxx * offset) * bend + (hxx * slope + 2.0 * hxy) * slope + hyy;
         let mut steps = vec![rows[0], rows[1]];
-        if square > 0.0 {
-            steps.push((-linear / square).clamp(rows[0], rows[1]));
-        }
-        for x in [-radius, radius] {
-            let y = (x - offset) / slope;
-            if rows[0] < y && y < rows[1] {
-                steps.push(y);
+        if slope.abs() <= 1.0 {
+            let linear = (gx + hxx * offset) * slope + gy + hxy * offset;
+            let square = (gx + hxx * offset) * bend + (hxx * slope + 2.0 * hxy) * slope + hyy;
+            if square > 0.0 {
+                steps.push((-linear / square).clamp(rows[0], rows[1]));
             }
+        } else {
+            // y = start + x/slope + turn x^2/2
+            let (start, turn) = (-offset / slope, -bend / (slope * slope * slope));
+            let linear = gx + hxy * start + (gy + hyy * start) / slope;
+            let square = hxx + (2.0 * hxy + hyy / slope) / slope + (gy + hyy * start) * turn;
+            let mut xs = vec![-radius, -0.9 * radius, 0.9 * radius, radius];
+            if square > 0.0 {
+                xs.push((-linear / square).clamp(-radius, radius));
+            }
+            let ys = xs.into_iter().map(|x| start + x / slope + 0.5 * turn * x * x);
+            steps.extend(ys.filter(|&y| rows[0] < y && y < rows[1]));
         }
         steps
     }
