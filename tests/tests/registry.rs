@@ -1,0 +1,253 @@
+//! **Claim**: every registered scheme is an affine-invariant scheme with the eigenstructure of a C1 scheme, and its Fourier
+//! blocks hold the spectrum of its local matrix. **Oracles**: row sums of the dense matrix; traces of its powers, which are
+//! sums of powers of all eigenvalues, repeated and defective ones included; its discrete Fourier transform; closed forms.
+//!
+//! The table [`expectation`] names every family. A family that is registered without an entry fails the test: what is new
+//! must say what it claims.
+
+use eigenring_scheme::lambda::{Bounds, Domain, LambdaTable, Relaxation};
+use eigenring_scheme::{Error, FourierNet, Lattice, Level, Numbering, Scheme, Site, Spec, registry};
+use eigenring_spectral::{LocalSystem, Matrix, fourier_block, local_matrix, numbering};
+use eigenring_tests::Comparison;
+use std::f64::consts::TAU;
+
+const VALENCES: std::ops::RangeInclusive<usize> = 3..=12;
+
+/// What a family claims.
+struct Expectation {
+    /// The kind of net, the degree of the surface and the smallest closed rings.
+    form: fn(&Spec) -> (Lattice, usize, usize),
+    /// The subdominant eigenvalue of the limit level, where there is a formula.
+    lambda: fn(&Spec, usize) -> Option<f64>,
+    /// Specs beside the registered examples.
+    more: fn(usize) -> Vec<Spec>,
+}
+
+fn catmull_clark_lambda(n: usize) -> f64 {
+    let c = (TAU / n as f64).cos();
+    (c + 5.0 + ((c + 9.0) * (c + 1.0)).sqrt()) / 16.0
+}
+
+fn expectation(family: &str) -> Option<Expectation> {
+    Some(match family {
+        "catmull-clark" => Expectation {
+            form: |_| (Lattice::Vertex, 3, 1),
+            lambda: |_, n| Some(catmull_clark_lambda(n)),
+            more: |_| Vec::new(),
+        },
+        "doo-sabin" => Expectation {
+            form: |_| (Lattice::Face, 2, 0),
+            lambda: |_, _| Some(0.5),
+            more: |_| Vec::new(),
+        },
+        "lambda" => Expectation {
+            form: |_| (Lattice::Vertex, 3, 1),
+            lambda: |spec, n| match *spec {
+                Spec::Lambda { lambda, .. } => Some(lambda),
+                _ => LambdaTable::embedded().unwrap().entry(n).ok().map(|entry| entry.lambda_optimal),
+            },
+            more: |n| {
+                let points = [0.2, 0.4, 0.55, 0.8].into_iter().flat_map(|lambda| {
+                    let plane = Relaxation::new(n).unwrap().plane(lambda).unwrap();
+                    let starts = Domain::new(plane, Bounds::Paper, 1e-3).unwrap().starts(2);
+                    starts.into_iter().map(move |[f2, f3]| Spec::Lambda {
+                        lambda,
+                        s: None,
+                        weights: Some((f2, f3)),
+                    })
+                });
+                points.collect()
+            },
+        },
+        "tension" => Expectation {
+            form: |spec| {
+                let order = order(spec);
+                match order % 2 {
+                    0 => (Lattice::Vertex, order - 1, order / 2 - 1),
+                    _ => (Lattice::Face, order - 1, (order - 3) / 2),
+                }
+            },
+            // the limit level is that of u = 1
+            lambda: |spec, n| match (order(spec), n) {
+                (_, 4) => Some(0.5),
+                (3, _) => Some((3.0 * n as f64 - 4.0 + 4.0 * (TAU / n as f64).cos()) / (4.0 * n as f64)),
+                (4, _) => Some(catmull_clark_lambda(n)),
+                _ => None,
+            },
+            more: |_| [8, 11].map(|order| Spec::Tension { order, u0: 0.1 }).to_vec(),
+        },
+        _ => return None,
+    })
+}
+
+fn order(spec: &Spec) -> usize {
+    match *spec {
+        Spec::Tension { order, .. } => order,
+        _ => unreachable!("asked of the tension family only"),
+    }
+}
+
+/// All schemes under test. Only a spec that needs the embedded table may be missing, and only while that is empty.
+fn schemes() -> Vec<(Expectation, Spec, Scheme<f64>)> {
+    let table_is_empty = LambdaTable::embedded().unwrap().valences.is_empty();
+    let mut schemes = Vec::new();
+    for family in registry() {
+        for n in VALENCES {
+            let expected = || {
+                expectation(family.name)
+                    .unwrap_or_else(|| panic!("the registered family '{}' has no expectation", family.name))
+            };
+            let registered = family.examples.iter().map(|example| example.parse().unwrap());
+            let specs: Vec<Spec> = registered.chain((expected().more)(n)).collect();
+            let before = schemes.len();
+            for spec in specs {
+                match spec.scheme(n) {
+                    Ok(scheme) => schemes.push((expected(), spec, scheme)),
+                    Err(Error::NotTabulated { .. }) if table_is_empty => {
+                        eprintln!("{spec}, N = {n}: left out while the embedded table is empty");
+                    }
+                    Err(error) => panic!("{spec}, N = {n}: {error}"),
+                }
+            }
+            assert!(schemes.len() > before, "{}: no scheme at N = {n}", family.name);
+        }
+    }
+    schemes
+}
+
+/// The first refinement and the limit level.
+fn levels(scheme: &Scheme<f64>) -> impl Iterator<Item = (&'static str, &Level<f64>)> {
+    let first = scheme.leading.first().map(|level| ("first level", level));
+    first.into_iter().chain([("limit level", &scheme.limit)])
+}
+
+#[test]
+fn nets_are_as_claimed_and_rows_are_affine() {
+    let mut sums = Comparison::new("row sums", 1e-14);
+    for (expected, spec, scheme) in schemes() {
+        let label = format!("{spec}, N = {}", scheme.valence());
+        let rings = scheme.closed_rings().unwrap();
+        assert_eq!((scheme.lattice(), scheme.degree, rings), (expected.form)(&spec), "{label}");
+        // fewer rings have no square matrix
+        if rings > 1 - scheme.lattice().parity() as usize {
+            assert!(local_matrix(&scheme.limit, rings - 1).is_err(), "{label}");
+        }
+        for (which, level) in levels(&scheme) {
+            let matrix = local_matrix(level, rings + 1).unwrap();
+            for row in 0..matrix.rows() {
+                let sum = matrix.row(row).iter().sum();
+                sums.check(format!("{label}, {which}, row {row}"), sum, 1.0);
+            }
+        }
+    }
+    sums.finish();
+}
+
+#[test]
+fn spectra_are_those_of_smooth_surfaces() {
+    let mut leading = Comparison::new("leading eigenvalues", 1e-12);
+    for (expected, spec, scheme) in schemes() {
+        let n = scheme.valence();
+        let rings = scheme.closed_rings().unwrap();
+        for (which, level) in levels(&scheme) {
+            let label = format!("{spec}, N = {n}, {which}");
+            let spectrum = LocalSystem::new(level, rings).unwrap().spectrum().unwrap();
+            let [one, lambda, mu] = spectrum.eigenvalues[..3] else {
+                unreachable!("three sectors and more have three eigenvalues and more")
+            };
+            leading.check(format!("{label}, dominant"), one.value.0, 1.0);
+            assert_eq!((one.fourier, one.multiplicity), (Some(0), 1), "{label}: {one:?}");
+            assert_eq!((lambda.fourier, lambda.multiplicity), (Some(1), 2), "{label}: {lambda:?}");
+            assert!(lambda.value.1 == 0.0 && lambda.value.0 > 0.0, "{label}: {lambda:?}");
+            assert!(one.modulus() > lambda.modulus() && lambda.modulus() > mu.modulus(), "{label}");
+            if which == "limit level" {
+                if let Some(formula) = (expected.lambda)(&spec, n) {
+                    leading.check(format!("{label}, subdominant"), lambda.value.0, formula);
+                }
+                if let Spec::Lambda { lambda, s, .. } = spec {
+                    let s = s.unwrap_or_else(|| Relaxation::new(n).unwrap().s(lambda).unwrap());
+                    let next = spectrum.subsubdominant().unwrap();
+                    leading.check(format!("{label}, next"), next.value.0, s * lambda * lambda);
+                }
+            }
+        }
+    }
+    leading.finish();
+}
+
+#[test]
+fn the_blocks_hold_the_spectrum_of_the_dense_matrix() {
+    let mut traces = Comparison::new("traces of powers", 1e-12);
+    let mut transforms = Comparison::new("entries of the Fourier blocks", 1e-14);
+    for (_, spec, scheme) in schemes() {
+        let n = scheme.valence();
+        let rings = scheme.closed_rings().unwrap();
+        for (which, level) in levels(&scheme) {
+            let label = format!("{spec}, N = {n}, {which}");
+            let matrix = local_matrix(level, rings).unwrap();
+            let spectrum = LocalSystem::new(level, rings).unwrap().spectrum().unwrap();
+            let count: usize = spectrum.eigenvalues.iter().map(|e| e.multiplicity).sum();
+            assert_eq!(count, matrix.rows(), "{label}");
+            for (power, trace) in traces_of_powers(&matrix, 4).into_iter().enumerate() {
+                let sum = spectrum.eigenvalues.iter().map(|e| {
+                    let angle = e.value.1.atan2(e.value.0) * (power + 1) as f64;
+                    e.multiplicity as f64 * e.modulus().powi(power as i32 + 1) * angle.cos()
+                });
+                traces.check(format!("{label}, power {}", power + 1), sum.sum(), trace);
+            }
+            // the same rules without the claim of mirror symmetry give the block in the values themselves
+            let plain = Level {
+                mirror: false,
+                ..level.clone()
+            };
+            for k in 0..n {
+                let block = fourier_block(&plain, rings, k).unwrap().to_complex();
+                let transform = transform(&matrix, numbering(level, rings), k);
+                for (i, (a, b)) in block.entries().iter().zip(transform.entries()).enumerate() {
+                    transforms.check(format!("{label}, block {k}, entry {i}, re"), a.0, b.0);
+                    transforms.check(format!("{label}, block {k}, entry {i}, im"), a.1, b.1);
+                }
+            }
+        }
+    }
+    traces.finish();
+    transforms.finish();
+}
+
+/// `tr S, tr S^2, ..`.
+fn traces_of_powers(matrix: &Matrix<f64>, powers: usize) -> Vec<f64> {
+    let size = matrix.rows();
+    let mut power = matrix.clone();
+    (0..powers)
+        .map(|_| {
+            let trace = (0..size).map(|i| power[(i, i)]).sum();
+            let rows = (0..size).map(|i| {
+                let mut row = vec![0.0; size];
+                for (j, &entry) in power.row(i).iter().enumerate().filter(|(_, entry)| **entry != 0.0) {
+                    for (sum, &right) in row.iter_mut().zip(matrix.row(j)) {
+                        *sum += entry * right;
+                    }
+                }
+                row
+            });
+            power = Matrix::from_rows(rows.collect(), size);
+            trace
+        })
+        .collect()
+}
+
+/// `sum_j M[row of sector 0, column of sector j] w^{kj}`, `w = exp(2 pi i/N)`.
+fn transform(matrix: &Matrix<f64>, numbering: Numbering, k: usize) -> Matrix<(f64, f64)> {
+    let n = numbering.fan.sectors();
+    let sites = FourierNet::<f64>::new(numbering, k, false).unwrap().rows();
+    Matrix::from_fn(sites.len(), sites.len(), |row, column| {
+        let target = numbering.index(sites[row]).unwrap();
+        let copies = if sites[column] == Site::CENTRE { 1 } else { n };
+        (0..copies).fold((0.0, 0.0), |sum, j| {
+            let source = numbering.index(sites[column].rotated(numbering.fan, j as i64)).unwrap();
+            let angle = TAU * ((k * j) % n) as f64 / n as f64;
+            let entry = matrix[(target, source)];
+            (sum.0 + entry * angle.cos(), sum.1 + entry * angle.sin())
+        })
+    })
+}
