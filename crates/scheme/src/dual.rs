@@ -54,6 +54,7 @@ impl<S: Scalar, const D: usize> Sub for Dual<S, D> {
 
 impl<S: Scalar, const D: usize> Mul for Dual<S, D> {
     type Output = Self;
+    #[expect(clippy::suspicious_arithmetic_impl, reason = "the product rule adds")]
     fn mul(self, other: Self) -> Self {
         let (a, b) = (self.value, other.value);
         self.zip(other, a * b, |p, q| p * b + a * q)
@@ -62,6 +63,7 @@ impl<S: Scalar, const D: usize> Mul for Dual<S, D> {
 
 impl<S: Scalar, const D: usize> Div for Dual<S, D> {
     type Output = Self;
+    #[expect(clippy::suspicious_arithmetic_impl, reason = "the quotient rule subtracts and multiplies")]
     fn div(self, other: Self) -> Self {
         let quotient = self.value / other.value;
         self.zip(other, quotient, |p, q| (p - quotient * q) / other.value)

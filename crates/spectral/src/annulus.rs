@@ -35,14 +35,23 @@ pub struct PatchIndex {
 }
 
 impl Annulus {
-    /// The annulus of a scheme's limit level.
+    /// The innermost regular annulus of a scheme's limit level.
     ///
     /// # Errors
     /// [`Error::Scheme`] if the scheme's rules cannot be run.
     pub fn new<S: Scalar>(scheme: &Scheme<S>) -> Result<Self, Error> {
+        Annulus::at_least(scheme, 1)
+    }
+
+    /// The innermost regular annulus whose inner radius is at least `inner`: any annulus further out generates the surface
+    /// as well, and schemes are compared on the same one.
+    ///
+    /// # Errors
+    /// [`Error::Scheme`] if the scheme's rules cannot be run.
+    pub fn at_least<S: Scalar>(scheme: &Scheme<S>, inner: usize) -> Result<Self, Error> {
         let degree = scheme.degree;
         let special = scheme.special_rings()?.unwrap_or(0);
-        let inner = (special + degree / 2) / 2 + 1;
+        let inner = inner.max((special + degree / 2) / 2 + 1);
         // the last patch begins at 2m - 1; its last control point is floor(d/2) before it and d after that
         let rings = 2 * inner - 1 - degree / 2 + degree;
         Ok(Annulus {

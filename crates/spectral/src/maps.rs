@@ -82,13 +82,20 @@ fn imaginary(mode: &Mode) -> Vec<f64> {
 }
 
 impl Maps {
-    /// The maps of the scheme's limit level.
+    /// The maps of the scheme's limit level, on its innermost regular annulus.
+    ///
+    /// # Errors
+    /// As [`Maps::on`].
+    pub fn new(scheme: &Scheme<f64>) -> Result<Self, Error> {
+        Maps::on(scheme, Annulus::new(scheme)?)
+    }
+
+    /// The maps of the scheme's limit level on an annulus of it.
     ///
     /// # Errors
     /// [`Error::NotSymmetric`] for rules that differ from sector to sector; [`Error::Multiplicity`] or [`Error::Defective`]
     /// where an eigenspace is not what the maps need, [`Error::Scaling`] if a block has no second eigenvalue.
-    pub fn new(scheme: &Scheme<f64>) -> Result<Self, Error> {
-        let annulus = Annulus::new(scheme)?;
+    pub fn on(scheme: &Scheme<f64>, annulus: Annulus) -> Result<Self, Error> {
         let system = LocalSystem::new(&scheme.limit, annulus.numbering.rings)?;
         if !system.symmetric() {
             return Err(Error::NotSymmetric);

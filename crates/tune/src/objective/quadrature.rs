@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 /// A node in (0, 1) and its weight; the weights of a rule sum to one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Node {
+pub(crate) struct Node {
     pub at: f64,
     pub weight: f64,
 }
@@ -13,7 +13,7 @@ pub(super) struct Node {
 ///
 /// The nodes are the zeros of the Legendre polynomial `P_n`, found by Newton's method from the asymptotic guess
 /// `cos(pi (i - 1/4) / (n + 1/2))`; with `x` a zero, its weight on [-1, 1] is `2 / ((1 - x^2) P_n'(x)^2)`.
-pub(super) fn gauss_legendre(order: usize) -> Vec<Node> {
+pub(crate) fn gauss_legendre(order: usize) -> Vec<Node> {
     let n = order as f64;
     (1..=order)
         .rev()

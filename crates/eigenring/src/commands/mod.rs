@@ -1,0 +1,54 @@
+//! The subcommands, one module each.
+
+mod compare;
+mod matrix;
+mod objective;
+mod reproduce;
+mod spectrum;
+mod stencil;
+mod tables;
+mod tune;
+
+use crate::error::Error;
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Design, analyse and tabulate subdivision schemes around extraordinary vertices.
+#[derive(Parser, Debug)]
+#[command(
+    name = "eigenring",
+    version,
+    after_help = "Examples:\n  eigenring tables                                   regenerate results/lambda from nothing\n  eigenring stencil -N 6 --lambda 0.55               the stencils of one valence and lambda\n  eigenring spectrum --scheme catmull-clark -N 5     eigenvalues and limit stencils\n  eigenring compare --schemes catmull-clark,lambda:optimal --valences 3..12\n\nSchemes: catmull-clark | doo-sabin | lambda:optimal | lambda:lambda=L[,f2=X,f3=Y][,s=S] |\n         tension:order=K[,u0=U] | file:SCHEME.toml\nExit codes: 0 done, 1 refuted or different, 2 bad input."
+)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand, Debug)]
+enum Command {
+    Tables(tables::Arguments),
+    Stencil(stencil::Arguments),
+    Objective(objective::Arguments),
+    Tune(tune::Arguments),
+    Spectrum(spectrum::Arguments),
+    Matrix(matrix::Arguments),
+    Compare(compare::Arguments),
+    Reproduce(reproduce::Arguments),
+}
+
+impl Cli {
+    /// Runs the chosen command.
+    pub fn run(self) -> Result<ExitCode, Error> {
+        match self.command {
+            Command::Tables(arguments) => arguments.run(),
+            Command::Stencil(arguments) => arguments.run(),
+            Command::Objective(arguments) => arguments.run(),
+            Command::Tune(arguments) => arguments.run(),
+            Command::Spectrum(arguments) => arguments.run(),
+            Command::Matrix(arguments) => arguments.run(),
+            Command::Compare(arguments) => arguments.run(),
+            Command::Reproduce(arguments) => arguments.run(),
+        }
+    }
+}
