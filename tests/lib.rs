@@ -92,7 +92,7 @@ impl Comparison {
     pub fn check(&mut self, label: impl std::fmt::Display, found: f64, expected: f64) {
         self.count += 1;
         let error = (found - expected).abs();
-        if !(error <= self.tolerance) {
+        if error > self.tolerance || error.is_nan() {
             let text = format!("{label}: {found:.17e}, expected {expected:.17e}, difference {error:.1e}");
             self.failures
                 .push((if error.is_nan() { f64::INFINITY } else { error }, text));

@@ -17,7 +17,10 @@ struct Random(u64);
 
 impl Random {
     fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 }
@@ -62,12 +65,18 @@ fn refinement_converges_to_the_limit_stencils() {
             assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-13, "{label}");
             let limit = combination(&weights, &start);
             let tangents = system.limit_tangents(lambda).unwrap().map(|weights| {
-                assert!(weights.iter().sum::<f64>().abs() < 1e-12, "{label}: a tangent is a direction");
+                assert!(
+                    weights.iter().sum::<f64>().abs() < 1e-12,
+                    "{label}: a tangent is a direction"
+                );
                 combination(&weights, &start)
             });
             let natural = system.single(1, lambda).unwrap().values;
 
-            let mut net = PointNet { numbering, points: start };
+            let mut net = PointNet {
+                numbering,
+                points: start,
+            };
             let sites = numbering.sites();
             let mut first_remainder = 0.0;
             for m in 0..=80 {
@@ -83,7 +92,7 @@ fn refinement_converges_to_the_limit_stencils() {
                     // the net is not in the span of the first three eigenvectors, so there is something to converge
                     assert!(remainder > 0.1, "{label}");
                 }
-                // 40: eigenvectors are not orthogonal, and defective eigenvalues below mu add powers of m. Measured: below 12.
+                // 40: eigenvectors are not orthogonal, and defective eigenvalues below mu add powers of m. Measured: below 32.
                 let bound = 40.0 * first_remainder * mu.powi(m) + 1e-13;
                 assert!(remainder <= bound, "{label}, m = {m}: {remainder} is more than {bound}");
                 net.points = refine(&scheme.limit, &net, &sites).unwrap();
@@ -91,7 +100,7 @@ fn refinement_converges_to_the_limit_stencils() {
             for point in &net.points {
                 for d in 0..3 {
                     let distance = (point[d] - limit[d]).abs();
-                    assert!(distance < 1e-7_f64.max(1e2 * lambda.powi(80)), "{label}: {distance}");
+                    assert!(distance <= 1e2 * lambda.powi(80) + 1e-13, "{label}: {distance}");
                 }
             }
         }

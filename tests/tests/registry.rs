@@ -44,7 +44,11 @@ fn expectation(family: &str) -> Option<Expectation> {
             form: |_| (Lattice::Vertex, 3, 1),
             lambda: |spec, n| match *spec {
                 Spec::Lambda { lambda, .. } => Some(lambda),
-                _ => LambdaTable::embedded().unwrap().entry(n).ok().map(|entry| entry.lambda_optimal),
+                _ => LambdaTable::embedded()
+                    .unwrap()
+                    .entry(n)
+                    .ok()
+                    .map(|entry| entry.lambda_optimal),
             },
             more: |n| {
                 let points = [0.2, 0.4, 0.55, 0.8].into_iter().flat_map(|lambda| {
@@ -90,7 +94,7 @@ fn order(spec: &Spec) -> usize {
 /// All schemes under test. Only a spec that needs the embedded table may be missing, and only while that is empty.
 fn schemes() -> Vec<(Expectation, Spec, Scheme<f64>)> {
     let table_is_empty = LambdaTable::embedded().unwrap().valences.is_empty();
-    let mut schemes = Vec::new();
+    let (mut schemes, mut left_out) = (Vec::new(), 0);
     for family in registry() {
         for n in VALENCES {
             let expected = || {
@@ -103,16 +107,23 @@ fn schemes() -> Vec<(Expectation, Spec, Scheme<f64>)> {
             for spec in specs {
                 match spec.scheme(n) {
                     Ok(scheme) => schemes.push((expected(), spec, scheme)),
-                    Err(Error::NotTabulated { .. }) if table_is_empty => {
-                        eprintln!("{spec}, N = {n}: left out while the embedded table is empty");
-                    }
+                    Err(Error::NotTabulated { .. }) if table_is_empty => left_out += 1,
                     Err(error) => panic!("{spec}, N = {n}: {error}"),
                 }
             }
             assert!(schemes.len() > before, "{}: no scheme at N = {n}", family.name);
         }
     }
+    if left_out > 0 {
+        eprintln!("{left_out} schemes are left out while the embedded table is empty");
+    }
     schemes
+}
+
+/// [`schemes`] panics for a family that says nothing, and this is what it asks.
+#[test]
+fn an_unknown_family_has_no_expectation() {
+    assert!(expectation("registered-but-forgotten").is_none());
 }
 
 /// The first refinement and the limit level.
@@ -127,7 +138,11 @@ fn nets_are_as_claimed_and_rows_are_affine() {
     for (expected, spec, scheme) in schemes() {
         let label = format!("{spec}, N = {}", scheme.valence());
         let rings = scheme.closed_rings().unwrap();
-        assert_eq!((scheme.lattice(), scheme.degree, rings), (expected.form)(&spec), "{label}");
+        assert_eq!(
+            (scheme.lattice(), scheme.degree, rings),
+            (expected.form)(&spec),
+            "{label}"
+        );
         // fewer rings have no square matrix
         if rings > 1 - scheme.lattice().parity() as usize {
             assert!(local_matrix(&scheme.limit, rings - 1).is_err(), "{label}");
@@ -152,14 +167,20 @@ fn spectra_are_those_of_smooth_surfaces() {
         for (which, level) in levels(&scheme) {
             let label = format!("{spec}, N = {n}, {which}");
             let spectrum = LocalSystem::new(level, rings).unwrap().spectrum().unwrap();
-            let [one, lambda, mu] = spectrum.eigenvalues[..3] else {
-                unreachable!("three sectors and more have three eigenvalues and more")
+            let [one, lambda] = spectrum.eigenvalues[..2] else {
+                unreachable!("blocks 0 and 1 exist and have an eigenvalue each")
             };
             leading.check(format!("{label}, dominant"), one.value.0, 1.0);
             assert_eq!((one.fourier, one.multiplicity), (Some(0), 1), "{label}: {one:?}");
-            assert_eq!((lambda.fourier, lambda.multiplicity), (Some(1), 2), "{label}: {lambda:?}");
+            assert_eq!(
+                (lambda.fourier, lambda.multiplicity),
+                (Some(1), 2),
+                "{label}: {lambda:?}"
+            );
             assert!(lambda.value.1 == 0.0 && lambda.value.0 > 0.0, "{label}: {lambda:?}");
-            assert!(one.modulus() > lambda.modulus() && lambda.modulus() > mu.modulus(), "{label}");
+            // valence 3 on ring 0 of a face net has no third
+            let mu = spectrum.eigenvalues.get(2).map_or(0.0, |mu| mu.modulus());
+            assert!(one.modulus() > lambda.modulus() && lambda.modulus() > mu, "{label}");
             if which == "limit level" {
                 if let Some(formula) = (expected.lambda)(&spec, n) {
                     leading.check(format!("{label}, subdominant"), lambda.value.0, formula);

@@ -57,11 +57,7 @@ fn one_ring_spectra() {
             found.sort_by(f64::total_cmp);
             expected.sort_by(f64::total_cmp);
             for (found, expected) in found.into_iter().zip(expected) {
-                spectra.check(
-                    format!("N = {n}, lambda = {}, block {k}", case.lambda),
-                    found,
-                    expected,
-                );
+                spectra.check(format!("N = {n}, lambda = {}, block {k}", case.lambda), found, expected);
             }
         }
         assert!(

@@ -30,9 +30,8 @@ fn even_orders() {
         }
         // the same moduli in the same blocks; where several blocks share a modulus their order is of no meaning
         for expected in &case.leading {
-            let same = |&(modulus, k): &(f64, usize)| {
-                k == expected.fourier && (modulus - expected.value).abs() <= TOLERANCE
-            };
+            let same =
+                |&(modulus, k): &(f64, usize)| k == expected.fourier && (modulus - expected.value).abs() <= TOLERANCE;
             let position = left.iter().position(same);
             let position = position.unwrap_or_else(|| panic!("{label}: {expected:?} is not among {left:?}"));
             left.remove(position);
