@@ -13,10 +13,12 @@
 //! corner radius, which moves (x, y), they are transported (see `jet`). So E costs one evaluation and one adjoint of the error,
 //! whatever the number of coefficients.
 
-use super::fields::{Block, Derivatives, Fields, Turn};
+use super::fields::{Block, Derivatives, Fields, Turns};
 use super::jet::{Frame, Jet, Spin, Velocity};
 use super::lanes::Lanes;
-use super::maps::{self, Annuli, Saddle};
+use super::maps::{self, Annuli};
+use super::saddle::{self, Saddle};
+use super::sectors::WeightTable;
 use super::weight::Weight;
 
 /// The numbers that make the maps of the fields.
@@ -56,7 +58,6 @@ pub(super) struct Sample {
     area: Lanes,
     pub saddle: Saddle,
     pub cup: Spin,
-    jacobian: Lanes,
 }
 
 /// Their rates of change.
@@ -70,47 +71,81 @@ struct Rates {
     cup: [Spin; 4],
 }
 
+/// Blocks whose weights are computed together: enough to hide the latency of a square root, few enough for the fastest cache.
+const GROUP: usize = 4;
+
 /// The sign that tells the real from the imaginary saddle.
 pub(super) const SIGNS: [f64; 2] = [1.0, -1.0];
 
 #[inline(always)]
 fn affine(base: &Derivatives, slope: &Derivatives, factor: f64) -> Derivatives {
-    std::array::from_fn(|i| base[i] + slope[i] * factor)
+    let mut sum = *base;
+    for (sum, &slope) in sum.iter_mut().zip(slope) {
+        *sum += slope * factor;
+    }
+    sum
 }
 
-/// The maps at a block, and their rates if asked for.
-#[inline(always)]
-fn sample<const GRADIENT: bool>(block: &Block, c: &Coefficients<f64>) -> (Sample, Option<Rates>) {
-    let x = affine(&block.x0[0], &block.x1[0], c.radius);
-    let y = affine(&block.x0[1], &block.x1[1], c.radius);
-    let frame = Frame::new(&x, &y);
-    let z0 = [frame.jet(&block.z0[0]), frame.jet(&block.z0[1])];
-    let z1 = [frame.jet(&block.z1[0]), frame.jet(&block.z1[1])];
-    let cups = [0, 1, 2].map(|i| frame.jet(&block.cup[i]));
-    let z = [0, 1].map(|i| z0[i].combine(c.saddle[0], z1[i], c.saddle[1]));
-    let cup = (cups[0].combine(c.cup[0], cups[1], c.cup[1])).combine(1.0, cups[2], c.cup[2]);
-    let saddle = |jets: &[Jet; 2]| Saddle::new(jets[0].hessian, jets[1].hessian);
-    let sample = Sample {
-        area: block.weight * frame.jacobian,
-        saddle: saddle(&z),
-        cup: cup.hessian,
-        jacobian: frame.jacobian,
-    };
-    let rates = GRADIENT.then(|| {
-        let velocity = Velocity::new(frame.jet(&block.x1[0]), frame.jet(&block.x1[1]));
-        let moved = Saddle::new(velocity.transport(&z[0]), velocity.transport(&z[1]));
+/// Jets of all heights at a block; pairs are real and imaginary part.
+struct Jets {
+    frame: Frame,
+    fields: [[Jet; 2]; 2],
+    cups: [Jet; 3],
+    saddle: [Jet; 2],
+    cup: Jet,
+}
+
+impl Jets {
+    #[inline(always)]
+    fn new(block: &Block, c: &Coefficients<f64>) -> Jets {
+        let x = affine(&block.x0[0], &block.x1[0], c.radius);
+        let y = affine(&block.x0[1], &block.x1[1], c.radius);
+        let frame = Frame::new(&x, &y);
+        let z0 = [frame.jet(&block.z0[0]), frame.jet(&block.z0[1])];
+        let z1 = [frame.jet(&block.z1[0]), frame.jet(&block.z1[1])];
+        let cups = [
+            frame.jet(&block.cup[0]),
+            frame.jet(&block.cup[1]),
+            frame.jet(&block.cup[2]),
+        ];
+        let ([a, b], [v, e, f]) = (c.saddle, c.cup);
+        Jets {
+            frame,
+            saddle: [z0[0].combine(a, z1[0], b), z0[1].combine(a, z1[1], b)],
+            cup: cups[0].combine(v, cups[1], e).combine(1.0, cups[2], f),
+            fields: [z0, z1],
+            cups,
+        }
+    }
+
+    #[inline(always)]
+    fn sample(&self, weight: Lanes) -> Sample {
+        Sample {
+            area: weight * self.frame.jacobian,
+            saddle: Saddle::new(self.saddle[0].hessian, self.saddle[1].hessian),
+            cup: self.cup.hessian,
+        }
+    }
+
+    #[inline(always)]
+    fn rates(&self, block: &Block) -> Rates {
+        let velocity = Velocity::new(self.frame.jet(&block.x1[0]), self.frame.jet(&block.x1[1]));
+        let [z0, z1] = &self.fields;
         Rates {
             divergence: velocity.divergence,
-            saddle: [moved, saddle(&z0), saddle(&z1)],
+            saddle: [
+                Saddle::new(velocity.transport(&self.saddle[0]), velocity.transport(&self.saddle[1])),
+                Saddle::new(z0[0].hessian, z0[1].hessian),
+                Saddle::new(z1[0].hessian, z1[1].hessian),
+            ],
             cup: [
-                velocity.transport(&cup),
-                cups[0].hessian,
-                cups[1].hessian,
-                cups[2].hessian,
+                velocity.transport(&self.cup),
+                self.cups[0].hessian,
+                self.cups[1].hessian,
+                self.cups[2].hessian,
             ],
         }
-    });
-    (sample, rates)
+    }
 }
 
 /// The sums of a mean `<h>` and of its derivatives.
@@ -137,10 +172,10 @@ impl<const R: usize> Moment<R> {
     }
 }
 
-/// Evaluates all three parts; without `GRADIENT` the same value, bit for bit, and void derivatives.
+/// Evaluates all three parts; without `GRADIENT` the same value, bit for bit, and meaningless derivatives.
 pub(super) fn evaluate<const GRADIENT: bool>(
     fields: &Fields,
-    turns: &[Turn],
+    turns: &Turns,
     annuli: &Annuli,
     weight: Option<&Weight>,
     coefficients: &Coefficients<f64>,
@@ -153,14 +188,18 @@ pub(super) fn evaluate<const GRADIENT: bool>(
     let mut saddles = [Moment::<3>::ZERO; 2];
     let fitted = |saddle: &Saddle, sign: f64| saddle.y.re + saddle.v.re * (sign * annuli.mean_turn);
     for block in &fields.blocks {
-        let (point, rate) = sample::<GRADIENT>(block, coefficients);
-        jacobian_min = point.jacobian.0.iter().copied().fold(jacobian_min, f64::min);
+        let jets = Jets::new(block, coefficients);
+        let point = jets.sample(block.weight);
+        for jacobian in jets.frame.jacobian.0 {
+            jacobian_min = jacobian_min.min(jacobian);
+        }
         area.value += point.area;
         cup.value += point.area * point.cup.t;
         for (moment, sign) in saddles.iter_mut().zip(SIGNS) {
             moment.value += point.area * fitted(&point.saddle, sign);
         }
-        if let Some(rate) = rate {
+        if GRADIENT {
+            let rate = jets.rates(block);
             let growth = point.area * rate.divergence;
             area.rates[0] += growth;
             cup.rates[0] += growth * point.cup.t;
@@ -183,20 +222,34 @@ pub(super) fn evaluate<const GRADIENT: bool>(
 
     let mut cup = Sum::<4>::ZERO;
     let mut parts = [Sum::<3>::ZERO; 2];
-    for (i, point) in samples.iter().enumerate() {
-        let rate = rates.get(i);
-        let error = maps::cup(&point.cup, cup_fit.value, annuli, weight);
-        cup.add(point.area, error.value, error.by_fit, rate, |rate, k| {
-            error.by_hessian.dot(rate.cup[k])
-        });
-        for ((part, fit), sign) in parts.iter_mut().zip(&saddle_fits).zip(SIGNS) {
-            let error = maps::saddle::<GRADIENT>(&point.saddle, sign, fit.value, annuli, turns, weight);
-            part.add(point.area, error.value, error.by_fit, rate, |rate, k| {
-                error.by_hessian.dot(&rate.saddle[k])
+    let mut table = WeightTable::new(turns, 2 * GROUP);
+    for (group, points) in samples.chunks(GROUP).enumerate() {
+        if let Some(weight) = weight {
+            for (i, point) in points.iter().enumerate() {
+                for (j, sign) in SIGNS.into_iter().enumerate() {
+                    let fit = saddle_fits[j].value;
+                    table.put(2 * i + j, saddle::curvature(&point.saddle, sign, fit, annuli));
+                }
+            }
+            table.fill(weight);
+        }
+        for (i, point) in points.iter().enumerate() {
+            let rate = rates.get(group * GROUP + i);
+            let error = maps::cup(&point.cup, cup_fit.value, annuli, weight);
+            cup.add(point.area, error.value, error.by_fit, rate, |rate, k| {
+                error.by_hessian.dot(rate.cup[k])
             });
+            for (j, sign) in SIGNS.into_iter().enumerate() {
+                let weights = weight.map(|_| table.get(2 * i + j));
+                let fit = saddle_fits[j].value;
+                let error = saddle::error::<GRADIENT>(&point.saddle, sign, fit, annuli, turns, weights);
+                parts[j].add(point.area, error.value, error.by_fit, rate, |rate, k| {
+                    error.by_hessian.dot(&rate.saddle[k])
+                });
+            }
         }
     }
-    let classes = turns.len() as f64;
+    let classes = turns.count() as f64;
     Outcome {
         cup_fit: cup_fit.value,
         saddle_fits: saddle_fits.map(|fit| fit.value),
@@ -263,7 +316,7 @@ impl<const R: usize> Sum<R> {
 /// (min, max) of the cup and of the two saddles.
 pub(super) fn curvature_extremes(
     fields: &Fields,
-    turns: &[Turn],
+    turns: &Turns,
     coefficients: &Coefficients<f64>,
 ) -> ((f64, f64), [(f64, f64); 2]) {
     let none = (f64::INFINITY, f64::NEG_INFINITY);
@@ -274,13 +327,14 @@ pub(super) fn curvature_extremes(
         }
     };
     for block in &fields.blocks {
-        let (point, _) = sample::<false>(block, coefficients);
+        let point = Jets::new(block, coefficients).sample(block.weight);
         widen(&mut cup, point.cup.t * point.cup.t - point.cup.s.norm_square());
         for (range, sign) in saddles.iter_mut().zip(SIGNS) {
             let (k0, k1) = point.saddle.curvature(sign);
-            for turn in turns {
-                let signed = k0 + k1.re * Lanes::splat(turn.t.re) - k1.im * Lanes::splat(turn.t.im);
-                widen(range, -signed);
+            for turn in turns.real.iter().chain(&turns.pairs) {
+                let (even, odd) = (k0 + k1.re * turn.t.re, k1.im * turn.t.im);
+                widen(range, odd - even);
+                widen(range, -odd - even);
             }
         }
     }

@@ -200,30 +200,81 @@ fn cubic(t: f64) -> [[f64; 4]; 3] {
     ]
 }
 
-/// `exp(4 i phi)` and its square for the sectors that differ in them.
+/// A class of sectors by `t = exp(4 i phi)`: t and its square.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Turn {
     pub t: Complex<f64>,
     pub square: Complex<f64>,
 }
 
-/// The `N / gcd(N, 4)` classes of sectors, all of the same size.
-pub(super) fn turns(valence: usize) -> Vec<Turn> {
-    let n = valence as i64;
-    let classes = match valence % 4 {
-        0 => n / 4,
-        2 => n / 2,
-        _ => n,
-    };
-    (0..classes)
-        .map(|i| Turn {
-            t: Complex::turn(2 * (2 * i + 1), n),
-            square: Complex::turn(4 * (2 * i + 1), n),
-        })
-        .collect()
+/// The `N / gcd(N, 4)` classes of sectors that differ in `t`, all of the same size. Sectors come in mirrored pairs, so the
+/// classes are real or conjugate in pairs, of which the one with the positive imaginary part is listed.
+#[derive(Clone, Debug)]
+pub(super) struct Turns {
+    /// t = 1 or t = -1.
+    pub real: Vec<Turn>,
+    /// One of each pair.
+    pub pairs: Vec<Turn>,
+}
+
+impl Turns {
+    pub fn new(valence: usize) -> Turns {
+        let n = valence as i64;
+        let classes = match valence % 4 {
+            0 => n / 4,
+            2 => n / 2,
+            _ => n,
+        };
+        let (mut real, mut pairs) = (Vec::new(), Vec::new());
+        // t = exp(2 pi i k / N); exact comparisons in integers
+        for k in (0..classes).map(|i| (2 * (2 * i + 1)) % n) {
+            let turn = Turn {
+                t: Complex::turn(k, n),
+                square: Complex::turn(2 * k, n),
+            };
+            if 2 * k % n == 0 {
+                real.push(turn);
+            } else if 2 * k < n {
+                pairs.push(turn);
+            }
+        }
+        Turns { real, pairs }
+    }
+
+    /// The number of classes.
+    pub fn count(&self) -> usize {
+        self.real.len() + 2 * self.pairs.len()
+    }
 }
 
 /// The mean of `exp(4 i phi)` over all sectors: zero unless N divides 4.
 pub(super) fn mean_turn(valence: usize) -> f64 {
     if valence == 4 { f64::cos_turn(1, 2) } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn classes_of_sectors_have_the_moments_of_all_sectors() {
+        for valence in 3..=64_usize {
+            let turns = Turns::new(valence);
+            assert_eq!(turns.count() * [4, 1, 2, 1][valence % 4], valence);
+            for power in 1..=3 {
+                let angle = |i: usize| 4.0 * power as f64 * (2 * i + 1) as f64 * std::f64::consts::PI / valence as f64;
+                let mean = (0..valence).map(|i| angle(i).cos()).sum::<f64>() / valence as f64;
+                let of = |turn: &Turn| match power {
+                    1 => turn.t.re,
+                    2 => turn.square.re,
+                    _ => (turn.t * turn.square).re,
+                };
+                let sum = turns.real.iter().map(of).sum::<f64>() + 2.0 * turns.pairs.iter().map(of).sum::<f64>();
+                assert!((sum / turns.count() as f64 - mean).abs() < 1e-13);
+                if power == 1 {
+                    assert!((mean_turn(valence) - mean).abs() < 1e-13);
+                }
+            }
+        }
+    }
 }

@@ -6,8 +6,9 @@
 use eigenring_scheme::Scalar;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// Points per block; see the measurement in `benches/objective.rs`.
-pub(super) const WIDTH: usize = 4;
+/// Points per block: what one register of the baseline of x86-64 and of aarch64 holds. Wider blocks have been measured and
+/// lose to the spilling of registers.
+pub(super) const WIDTH: usize = 2;
 
 /// One number for each of [`WIDTH`] points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,23 +23,11 @@ impl Lanes {
     }
 
     #[inline(always)]
-    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        Lanes(std::array::from_fn(|i| f(self.0[i], other.0[i])))
-    }
-
-    #[inline(always)]
-    pub fn abs(self) -> Self {
-        Lanes(self.0.map(f64::abs))
-    }
-
-    /// Lane by lane, `yes` where `self` is not negative and `no` elsewhere.
-    #[inline(always)]
-    pub fn select_non_negative(self, yes: Self, no: Self) -> Self {
-        Lanes(std::array::from_fn(
-            |i| {
-                if self.0[i] >= 0.0 { yes.0[i] } else { no.0[i] }
-            },
-        ))
+    fn zip(mut self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        for (a, b) in self.0.iter_mut().zip(other.0) {
+            *a = f(*a, b);
+        }
+        self
     }
 
     /// The sum of the lanes, in index order.
@@ -91,7 +80,7 @@ impl Neg for Lanes {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Lanes(self.0.map(|a| -a))
+        self * -1.0
     }
 }
 
@@ -119,9 +108,8 @@ impl Scalar for Lanes {
         Lanes::splat(value)
     }
 
-    #[inline(always)]
     fn sqrt(self) -> Self {
-        Lanes(self.0.map(f64::sqrt))
+        self.zip(Lanes::ZERO, |a, _| a.sqrt())
     }
 
     fn cos_turn(k: i64, n: i64) -> Self {

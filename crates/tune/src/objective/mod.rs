@@ -26,9 +26,13 @@ mod fields;
 mod jet;
 mod lanes;
 mod maps;
-mod quadrature;
+pub(crate) mod quadrature;
 mod rings;
+mod saddle;
+mod sectors;
 mod settings;
+#[cfg(test)]
+mod tests;
 mod weight;
 
 pub use settings::{Error, Normalisation, Settings};
@@ -36,7 +40,7 @@ pub use settings::{Error, Normalisation, Settings};
 use eigenring_scheme::lambda::Plane;
 use eigenring_scheme::{Dual, Scalar};
 use evaluate::{Coefficients, Outcome, SIGNS, Slope, curvature_extremes, evaluate};
-use fields::{Fields, Turn};
+use fields::{Fields, Turns};
 use maps::Annuli;
 use weight::Weight;
 
@@ -49,7 +53,7 @@ pub struct Objective {
     plane: Plane<f64>,
     settings: Settings,
     fields: Fields,
-    turns: Vec<Turn>,
+    turns: Turns,
     annuli: Annuli,
     weight: Option<Weight>,
     gram: Gram,
@@ -130,7 +134,7 @@ impl Objective {
             settings,
             gram: Gram::new(&fields, plane.valence, mean_turn),
             fields,
-            turns: fields::turns(plane.valence),
+            turns: Turns::new(plane.valence),
             annuli: Annuli::new(plane.lambda, plane.s, mean_turn),
             weight: settings.weighted.then(|| Weight::new(settings.epsilon, settings.n)),
         })
@@ -264,14 +268,12 @@ impl Objective {
             return Err(Error::NotFinite { f2, f3 });
         }
         let outcome = evaluate::<GRADIENT>(&self.fields, &self.turns, &self.annuli, self.weight.as_ref(), &plain);
-        if !(outcome.jacobian_min > 0.0) {
-            return Err(Error::Folded {
-                f2,
-                f3,
-                jacobian: outcome.jacobian_min,
-            });
+        let jacobian = outcome.jacobian_min;
+        if jacobian > 0.0 {
+            Ok(outcome)
+        } else {
+            Err(Error::Folded { f2, f3, jacobian })
         }
-        Ok(outcome)
     }
 
     /// The sum of the parts in the chosen normalisation.

@@ -16,9 +16,6 @@
 //! where the first form is free of cancellation for k >= 0 and the second for k < 0. If ac = b^2 exactly, k = 0 is passed in
 //! and w = n, the limit.
 
-use super::lanes::Lanes;
-use eigenring_scheme::Scalar;
-
 /// The weight function with given epsilon and n.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Weight {
@@ -43,41 +40,47 @@ impl Weight {
 
     /// `w` and `dw/dk`, by two square roots and one division.
     #[inline(always)]
-    pub fn at(&self, k: Lanes) -> (Lanes, Lanes) {
+    pub fn at(&self, k: f64) -> (f64, f64) {
         let square = k * k;
-        let small = (square + Lanes::splat(self.lower)).sqrt();
-        let large = (square + Lanes::splat(self.upper)).sqrt();
+        let small = (square + self.lower).sqrt();
+        let large = (square + self.upper).sqrt();
         let (with_small, with_large) = (k.abs() + small, k.abs() + large);
-        let numerator = k.select_non_negative(with_large, with_small * self.largest);
-        let denominator = k.select_non_negative(with_small, with_large);
+        let positive = k >= 0.0;
+        let numerator = if positive {
+            with_large
+        } else {
+            self.largest * with_small
+        };
+        let denominator = if positive { with_small } else { with_large };
         let roots = small * large;
-        let inverse = Lanes::splat(1.0) / (denominator * roots);
+        let inverse = 1.0 / (denominator * roots);
         let w = numerator * roots * inverse;
         (w, w * (small - large) * (denominator * inverse))
+    }
+
+    /// [`Weight::at`] for all of `k`; a loop over plain slices, which the compiler vectorises reliably.
+    pub fn fill(&self, k: &[f64], w: &mut [f64], slope: &mut [f64]) {
+        for ((&k, w), slope) in k.iter().zip(w).zip(slope) {
+            (*w, *slope) = self.at(k);
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::objective::lanes::WIDTH;
     use approx::assert_relative_eq;
-
-    fn at(weight: &Weight, k: f64) -> (f64, f64) {
-        let (w, slope) = weight.at(Lanes([k; WIDTH]));
-        (w.0[0], slope.0[0])
-    }
 
     #[test]
     fn limits_and_the_value_at_zero() {
         let weight = Weight::new(0.2, 5.0);
-        assert_relative_eq!(at(&weight, 0.0).0, 5.0, epsilon = 1e-15);
-        assert_relative_eq!(at(&weight, 1e9).0, 1.0, epsilon = 1e-15);
-        assert_relative_eq!(at(&weight, -1e9).0, 25.0, epsilon = 1e-13);
+        assert_relative_eq!(weight.at(0.0).0, 5.0, epsilon = 1e-15);
+        assert_relative_eq!(weight.at(1e9).0, 1.0, epsilon = 1e-15);
+        assert_relative_eq!(weight.at(-1e9).0, 25.0, epsilon = 1e-13);
         // the definition itself, where it does not cancel
         let r = |k: f64, e: f64| (k + (k * k + 4.0 * e * e).sqrt()) / 2.0;
         for k in [-0.3, -0.01, 0.2, 1.0, 7.0] {
-            assert_relative_eq!(at(&weight, k).0, r(k, 1.0) / r(k, 0.2), max_relative = 1e-14);
+            assert_relative_eq!(weight.at(k).0, r(k, 1.0) / r(k, 0.2), max_relative = 1e-14);
         }
     }
 
@@ -86,12 +89,12 @@ mod tests {
         let weight = Weight::new(0.2, 5.0);
         // w(k) w(-k) = n^2 ties the branches together
         for k in [1e-12, 0.3, 4.0, 1e4, 1e8] {
-            assert_relative_eq!(at(&weight, k).0 * at(&weight, -k).0, 25.0, max_relative = 1e-14);
+            assert_relative_eq!(weight.at(k).0 * weight.at(-k).0, 25.0, max_relative = 1e-14);
         }
         for k in [-20.0, -1.0, -1e-3, 0.0, 1e-3, 0.4, 3.0] {
             let step = 1e-5;
-            let difference = (at(&weight, k + step).0 - at(&weight, k - step).0) / (2.0 * step);
-            assert_relative_eq!(at(&weight, k).1, difference, epsilon = 1e-8);
+            let difference = (weight.at(k + step).0 - weight.at(k - step).0) / (2.0 * step);
+            assert_relative_eq!(weight.at(k).1, difference, epsilon = 1e-8);
         }
     }
 }
