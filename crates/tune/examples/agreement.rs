@@ -1,72 +1,59 @@
-//! x
-use eigenring_scheme::lambda::{Bounds, Domain, Relaxation};
-use eigenring_tune::objective::{Objective, Settings};
-use eigenring_tune::search::{Starts, search};
+//! Do descents from the grid's minima find what descents from all 100 starts find?
+//!
+//! `cargo run --release -p eigenring-tune --example agreement [first valence] [last valence]` searches all 100 sample lambdas of each
+//! valence (3 to 20 by default) both ways, and prints one row per valence: the largest relative excess of the default search over the
+//! full one with its lambda, the largest KKT residual of the lowest optima, the most distinct minima at one lambda, then means per
+//! lambda: milliseconds, descents, evaluations of value and gradient in each descent, and milliseconds of the full search.
+
+use eigenring_tune::search::Starts;
+use eigenring_tune::sweep::{Error, Options, Problem, sample_lambdas};
 use std::time::Instant;
 
-fn main() {
-    let arg: Vec<usize> = std::env::args().skip(1).map(|a| a.parse().unwrap()).collect();
-    let step = *arg.get(2).unwrap_or(&1);
-    for n in arg[0]..=arg[1] {
-        let rule = Relaxation::new(n).unwrap();
-        let l = rule.lambda_l();
-        let mut worst = 0.0_f64;
-        let (mut t_grid, mut t_full, mut evals, mut grads, mut desc, mut fgrads, mut kkt, mut kktf, mut maxmin) =
-            (0.0, 0.0, 0, 0, 0, 0, 0.0_f64, 0.0_f64, 0);
-        let mut count = 0;
-        for i in (0..100).step_by(step) {
-            let lambda = if i < 50 {
-                0.15 + i as f64 * (l - 0.15) / 49.0
-            } else {
-                l + (i - 49) as f64 * (0.9 - l) / 50.0
-            };
-            let plane = rule.plane(lambda).unwrap();
-            let domain = Domain::new(plane, Bounds::Paper, 2e-6).unwrap();
-            let t = Instant::now();
-            let objective = Objective::new(plane, Settings::default()).unwrap();
-            let grid = search(&objective, &domain, Starts::Grid).unwrap();
-            t_grid += t.elapsed().as_secs_f64();
-            let t = Instant::now();
-            let full = search(&objective, &domain, Starts::Full).unwrap();
-            t_full += t.elapsed().as_secs_f64();
-            count += 1;
-            evals += grid.evaluations;
-            grads += grid.gradient_evaluations;
-            desc += grid.descents;
-            fgrads += full.gradient_evaluations;
-            let (a, b) = (grid.lowest().total, full.lowest().total);
-            let d = (a - b) / b;
-            worst = worst.max(d);
-            kkt = grid.optima.iter().map(|o| o.kkt_residual).fold(kkt, f64::max);
-            kktf = full.optima.iter().map(|o| o.kkt_residual).fold(kktf, f64::max);
-            maxmin = maxmin.max(full.optima.len());
-            if d > 1e-9 || full.optima.len() > 1 || full.optima.iter().any(|o| o.kkt_residual > 1e-7) {
-                println!(
-                    "N {n} lambda {lambda:.5} diff {d:.1e} grid {} full {} :",
-                    grid.optima.len(),
-                    full.optima.len()
-                );
-                for o in full.optima.iter().take(6) {
-                    println!(
-                        "     {:.9} {:.9} {:.12} {:?} {:.1e}",
-                        o.f2,
-                        o.f3,
-                        o.total,
-                        o.active_names(),
-                        o.kkt_residual
-                    );
-                }
-            }
-        }
-        let c = count as f64;
-        println!(
-            "== N {n}: worst {worst:.1e} kkt {kkt:.1e} full {kktf:.1e} maxmin {maxmin} ms/lambda {:.2} full {:.2} evals {:.0} descents {:.2} grads/descent {:.1} full {:.1}",
-            t_grid * 1e3 / c,
-            t_full * 1e3 / c,
-            evals as f64 / c,
-            desc as f64 / c,
-            grads as f64 / desc as f64,
-            fgrads as f64 / c / 100.0
-        );
+fn main() -> Result<(), Error> {
+    let mut arguments = std::env::args()
+        .skip(1)
+        .filter_map(|argument| argument.parse::<usize>().ok());
+    let (first, last) = (arguments.next().unwrap_or(3), arguments.next().unwrap_or(20));
+    println!("  N  excess   at lambda   kkt      minima  ms     descents  gradients  full ms  gradients");
+    for valence in first..=last {
+        row(valence)?;
     }
+    Ok(())
+}
+
+fn row(valence: usize) -> Result<(), Error> {
+    let lambdas = sample_lambdas(valence)?;
+    let (mut excess, mut kkt, mut minima) = ((f64::NEG_INFINITY, 0.0), 0.0_f64, 0);
+    let mut seconds = [0.0; 2];
+    let mut descents = [0; 2];
+    let mut gradients = [0; 2];
+    for &lambda in &lambdas {
+        let mut lowest = [0.0; 2];
+        for (i, starts) in [Starts::Grid, Starts::Full].into_iter().enumerate() {
+            let clock = Instant::now();
+            let search = Problem::new(valence, lambda, &Options::default())?.search(starts)?;
+            seconds[i] += clock.elapsed().as_secs_f64();
+            descents[i] += search.descents;
+            gradients[i] += search.gradient_evaluations;
+            lowest[i] = search.lowest().total;
+            kkt = kkt.max(search.lowest().kkt_residual);
+            minima = minima.max(search.optima.len());
+        }
+        let difference = lowest[0] / lowest[1] - 1.0;
+        if difference > excess.0 {
+            excess = (difference, lambda);
+        }
+    }
+    let count = lambdas.len() as f64;
+    println!(
+        "{valence:3}  {:7.1e}  {:.5}     {kkt:7.1e}  {minima:6}  {:5.2}  {:8.2}  {:9.1}  {:7.1}  {:9.1}",
+        excess.0,
+        excess.1,
+        1e3 * seconds[0] / count,
+        descents[0] as f64 / count,
+        gradients[0] as f64 / descents[0] as f64,
+        1e3 * seconds[1] / count,
+        gradients[1] as f64 / descents[1] as f64,
+    );
+    Ok(())
 }

@@ -66,18 +66,16 @@ impl Descent {
         let mut radius = self.radius;
         while walk.evaluations < EVALUATIONS {
             let model = Model { gradient, hessian };
-            let Some((place, step, predicted)) = model.minimum(frame, point, radius) else {
-                // the enumeration leaves out some points of a domain that is strongly curved within the box
+            let minimum = model.minimum(frame, point, radius);
+            let Some((place, step, predicted)) = minimum.filter(|(_, step, _)| size(*step) > STEP) else {
+                // nowhere to go, or the enumeration has left out what a strongly curved domain offers within the box: look nearer
                 radius *= 0.1;
                 if radius > STEP {
                     continue;
                 }
                 break;
             };
-            let size = step[0].abs().max(step[1].abs());
-            if size <= STEP {
-                break;
-            }
+            let size = size(step);
             let Some((new_value, new_gradient)) = walk.evaluate(place) else {
                 radius = 0.25 * size;
                 continue;
@@ -112,6 +110,11 @@ impl Descent {
             evaluations: walk.evaluations,
         })
     }
+}
+
+/// The larger component of a step.
+fn size(step: [f64; 2]) -> f64 {
+    step[0].abs().max(step[1].abs())
 }
 
 /// Evaluations in units of the domain, counted.

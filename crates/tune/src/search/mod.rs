@@ -111,6 +111,8 @@ pub struct Search {
     pub starts: usize,
     /// Descents made.
     pub descents: usize,
+    /// Distinct ends of descents that are left out because their KKT residual exceeds [`CONVERGED`].
+    pub unconverged: usize,
     /// Evaluations of the value alone.
     pub evaluations: usize,
     /// Evaluations of value and gradient.
@@ -128,14 +130,18 @@ impl Search {
 /// minima are 1e-2 and more apart (observed for N = 3..20).
 pub const MERGE: f64 = 1e-5;
 
-/// If so many distinct minima have values within [`COMPARABLE`] of the lowest, the grid is too coarse for the function, and
-/// [`Starts::Grid`] turns into [`Starts::Full`]. Of N = 3..20 this happens only at N = 3 and lambda < 0.22: there mu is close to 1/8, E is a
-/// plateau with a valley 1e-3 wide, and as fitted curvatures are nearly zero in it, the weight of a Gauss point is a step and E a
-/// staircase. Elsewhere there are at most two.
+/// If so many distinct minima are found, and the second is within [`COMPARABLE`] of the lowest, the grid is too coarse for the
+/// function, and [`Starts::Grid`] turns into [`Starts::Full`]. Of N = 3..20 this happens only at N = 3 and lambda < 0.22: there mu is close to
+/// 1/8, E is a plateau with a valley 1e-3 wide, and as fitted curvatures are nearly zero in it, the weight of a Gauss point is a step
+/// and E a staircase. Where E is smooth there are at most two comparable minima. Both numbers are empirical.
 const ROUGH: usize = 3;
 
-/// See [`ROUGH`]; empirical.
+/// A factor between values, see [`ROUGH`].
 const COMPARABLE: f64 = 2.0;
+
+/// KKT residual up to which the end of a descent is a minimum. Where E is smooth, residuals are below 1e-9; on the plateaus and
+/// stairs of N = 3 some descents get stuck. The lowest end is always kept: its residual says what it is.
+pub const CONVERGED: f64 = 1e-4;
 
 /// Searches a domain for its local minima.
 ///
@@ -148,6 +154,7 @@ pub fn search(function: &impl Function, domain: &Domain, starts: Starts) -> Resu
         optima: Vec::new(),
         starts: grid.len(),
         descents: 0,
+        unconverged: 0,
         evaluations: grid.len(),
         gradient_evaluations: 0,
     };
@@ -161,15 +168,18 @@ pub fn search(function: &impl Function, domain: &Domain, starts: Starts) -> Resu
         }
     };
     descend(grid.starts(starts), &mut search);
-    let lowest = search.optima.iter().map(|o| o.total).fold(f64::INFINITY, f64::min);
-    let comparable = search.optima.iter().filter(|o| o.total <= COMPARABLE * lowest);
-    if starts == Starts::Grid && comparable.count() >= ROUGH {
+    sort(&mut search.optima);
+    let rough = search.optima.len() >= ROUGH && search.optima[1].total <= COMPARABLE * search.optima[0].total;
+    if starts == Starts::Grid && rough {
         descend(grid.starts(Starts::Full), &mut search);
     }
     if search.optima.is_empty() {
         return Err(no_finite_value(domain, grid.len()));
     }
-    search.optima.sort_by(|a, b| a.total.total_cmp(&b.total));
+    sort(&mut search.optima);
+    let (ends, lowest) = (search.optima.len(), search.optima[0].clone());
+    search.optima.retain(|o| o.kkt_residual <= CONVERGED || *o == lowest);
+    search.unconverged = ends - search.optima.len();
     Ok(search)
 }
 
@@ -207,6 +217,11 @@ fn insert(optima: &mut Vec<Optimum>, new: Optimum, frame: &Frame) {
         Some(_) => {}
         None => optima.push(new),
     }
+}
+
+/// By rising value; equal ones stay in the order of the starts.
+fn sort(optima: &mut [Optimum]) {
+    optima.sort_by(|a, b| a.total.total_cmp(&b.total));
 }
 
 fn no_finite_value(domain: &Domain, points: usize) -> Error {
