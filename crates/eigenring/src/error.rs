@@ -16,7 +16,7 @@ pub enum Error {
     #[error(transparent)]
     Sweep(#[from] eigenring_tune::sweep::Error),
     #[error(transparent)]
-    Fit(#[from] eigenring_tune::spline::FitError),
+    Study(#[from] eigenring_tune::study::Error),
     #[error("cannot read {}: {source}", path.display())]
     Read { path: PathBuf, source: std::io::Error },
     #[error("cannot write {}: {source}", path.display())]

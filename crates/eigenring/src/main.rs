@@ -1,15 +1,19 @@
 //! The eigenring command.
 //!
 //! Each module of `commands` is one subcommand: its arguments and what it does. `table` and `files` put results out, `schemes`
-//! finds schemes by name, `study` computes what is tabulated for one valence. Exit codes: 0 done or proven, 1 refuted or
+//! finds schemes by name, `run` computes what is tabulated and `results` puts it into files. Exit codes: 0 done or proven, 1 refuted or
 //! different, 2 bad input.
 
 mod args;
 mod cache;
+mod checkpoint;
 mod commands;
+mod compare;
 mod error;
 mod files;
 mod progress;
+mod results;
+mod run;
 mod schemes;
 mod table;
 

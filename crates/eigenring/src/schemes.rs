@@ -6,11 +6,11 @@
 use crate::cache::Cache;
 use crate::error::Error;
 use crate::progress::note;
+use crate::run::minima_over_lambda;
 use eigenring_scheme::lambda::{Bounds, Domain, LambdaTable, Plane, Relaxation};
 use eigenring_scheme::user::UserScheme;
 use eigenring_scheme::{Scheme, Spec};
-use eigenring_tune::objective::{Objective, Settings};
-use eigenring_tune::search::{Starts, search};
+use eigenring_tune::sweep::{Options, Problem};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -80,9 +80,6 @@ impl Point {
     }
 }
 
-/// The relative margin against strict bounds with which stencils are tuned, so that they are provably inside.
-pub const MARGIN: f64 = 2e-6;
-
 /// Finds stencils of the lambda-scheme: in the embedded table, in the cache, or by tuning.
 #[derive(Debug, Default)]
 pub struct Tuner {
@@ -117,9 +114,8 @@ impl Tuner {
         }
         let key = format!("N{valence}-lambda{lambda}-s{}", plane.s);
         let tuned = self.remembered(&key, || {
-            let domain = Domain::new(plane, Bounds::Paper, MARGIN)?;
-            let objective = Objective::new(plane, Settings::default())?;
-            let found = search(&objective, &domain, Starts::Grid)?;
+            let options = Options::default();
+            let found = Problem::on_plane(plane, &options)?.search(options.starts)?;
             let best = found.lowest();
             Ok(Tuned {
                 lambda,
@@ -143,14 +139,14 @@ impl Tuner {
             return self.point(valence, entry.lambda_optimal, None);
         }
         let tuned = self.remembered(&format!("N{valence}-optimal"), || {
-            let options = eigenring_tune::sweep::Options::default();
-            let found = eigenring_tune::global::global(valence, &options)?;
+            let (found, _) = minima_over_lambda(valence, &Options::default())?;
+            let best = found.optimum();
             Ok(Tuned {
-                lambda: found.lambda,
-                s: found.s,
-                f2: found.f2,
-                f3: found.f3,
-                total: found.total,
+                lambda: best.lambda,
+                s: best.s,
+                f2: best.minimum.f2,
+                f3: best.minimum.f3,
+                total: best.minimum.total,
             })
         })?;
         Ok(Point {

@@ -129,11 +129,6 @@ impl Table {
         self.rows.push(row);
     }
 
-    /// The rows.
-    pub fn rows(&self) -> &[Vec<Cell>] {
-        &self.rows
-    }
-
     /// The table in a format; JSON as a list of objects.
     pub fn render(&self, format: Format) -> String {
         match format {

@@ -44,7 +44,7 @@ pub enum Error {
     },
     /// The eigenvalue is defective or so close to another that left and right eigenvectors are orthogonal.
     #[error(
-        "eigenvalue {value} of Fourier block {fourier} is defective or nearly so: l.r = {product} for unit vectors"
+        "eigenvalue {value} of Fourier block {fourier} is defective or nearly so: l.r = {product:.0e} for unit vectors"
     )]
     Defective {
         /// The eigenvalue.

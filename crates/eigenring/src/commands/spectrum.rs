@@ -159,13 +159,14 @@ impl Limits {
     }
 
     fn json(&self) -> Value {
+        let errors = [self.position.as_ref().err(), self.tangents.as_ref().err()];
+        let missing: Vec<String> = errors.into_iter().flatten().map(ToString::to_string).collect();
         json!({
             "points": self.all,
             "position": self.position.as_ref().ok(),
             "tangent_x": self.tangents.as_ref().ok().map(|t| &t[0]),
             "tangent_y": self.tangents.as_ref().ok().map(|t| &t[1]),
-            "missing": [self.position.as_ref().err(), self.tangents.as_ref().err()]
-                .into_iter().flatten().map(ToString::to_string).collect::<Vec<_>>(),
+            "missing": missing,
         })
     }
 

@@ -60,6 +60,12 @@ impl Constraint {
         }
     }
 
+    /// Whether it keeps an eigenvalue below mu: the bounds that the margin tightens.
+    pub fn is_eigenvalue_bound(self) -> bool {
+        use Constraint::{InnerBlocks, LastBlock, Z0Lower, Z0Upper};
+        matches!(self, LastBlock | InnerBlocks | Z0Lower | Z0Upper)
+    }
+
     /// The inequality, for messages.
     pub fn inequality(self) -> &'static str {
         match self {

@@ -1,0 +1,187 @@
+//! `eigenring tables`: the main job.
+
+use crate::args::{ObjectiveArgs, Output, Valences};
+use crate::error::Error;
+use crate::files;
+use crate::results::{self, FOLDER, Results};
+use crate::run::{Parameters, studies};
+use crate::table::{Format, Table};
+use clap::{Args, ValueEnum};
+use eigenring_scheme::lambda::Bounds;
+use eigenring_tune::search::Starts;
+use eigenring_tune::study::{Knots, Study};
+use eigenring_tune::sweep::{Options, Range};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Regenerate every coefficient table of the lambda-scheme from nothing.
+///
+/// For each valence: tunes the stencils at 100 lambdas, finds the globally optimal lambda, fits the spline stencils, and
+/// writes OUT/lambda/: the paper's tables and the samples as CSV, and tables.json with everything at full precision. An
+/// interrupted run resumes when the same command is given again.
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Examples:\n  eigenring tables                         all of results/lambda, valences 3 to 20\n  eigenring tables --valences 5,6 --out /tmp/try\n  eigenring tables --starts full --format latex"
+)]
+pub struct Arguments {
+    /// Valences: numbers and ranges, such as 3..20 or 3,5,8..10
+    #[arg(long, value_name = "LIST", default_value = "3..20")]
+    valences: Valences,
+    /// Output folder; files go to its subfolder lambda
+    #[arg(long, value_name = "FOLDER", default_value = "results")]
+    out: PathBuf,
+    /// Descend from the local minima of the 10 x 10 starting points, or from all of them
+    #[arg(long, value_enum, default_value_t)]
+    starts: StartsArg,
+    /// The bound on the last Fourier block: the paper's, or the exact one for odd valences
+    #[arg(long, value_enum, default_value_t)]
+    bounds: BoundsArg,
+    /// Relative distance of the samples from eigenvalue bounds
+    #[arg(long, value_name = "X", default_value_t = Options::default().margin)]
+    margin: f64,
+    /// Triple knots: detected from the samples, or those of the paper's Table 1
+    #[arg(long, value_enum, default_value_t)]
+    knots: KnotsArg,
+    /// Also write the table that is compiled into the library
+    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "crates/scheme/data/lambda.json")]
+    embed: Option<PathBuf>,
+    /// Threads; by default one for each core. Results do not depend on it
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    #[command(flatten)]
+    objective: ObjectiveArgs,
+    #[command(flatten)]
+    output: Output,
+}
+
+/// See [`Starts`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum StartsArg {
+    /// From the local minima of the grid.
+    #[default]
+    #[value(name = "10x10")]
+    Grid,
+    /// From every grid point.
+    Full,
+}
+
+impl From<StartsArg> for Starts {
+    fn from(starts: StartsArg) -> Starts {
+        match starts {
+            StartsArg::Grid => Starts::Grid,
+            StartsArg::Full => Starts::Full,
+        }
+    }
+}
+
+/// See [`Bounds`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum BoundsArg {
+    /// As published.
+    #[default]
+    Paper,
+    /// Exact.
+    Sharp,
+}
+
+impl From<BoundsArg> for Bounds {
+    fn from(bounds: BoundsArg) -> Bounds {
+        match bounds {
+            BoundsArg::Paper => Bounds::Paper,
+            BoundsArg::Sharp => Bounds::Sharp,
+        }
+    }
+}
+
+/// See [`Knots`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum KnotsArg {
+    /// From the samples.
+    #[default]
+    Detected,
+    /// As tabulated.
+    Paper,
+}
+
+/// Unfinished samples, below the results' folder.
+const RESUME: &str = ".resume";
+
+impl Arguments {
+    pub fn run(self) -> Result<ExitCode, Error> {
+        let options = Options {
+            bounds: self.bounds.into(),
+            margin: self.margin,
+            phi: self.objective.phi,
+            settings: self.objective.settings(),
+            starts: self.starts.into(),
+        };
+        let knots = match self.knots {
+            KnotsArg::Detected => Knots::Detected,
+            KnotsArg::Paper => Knots::Paper,
+        };
+        let parameters = Parameters::new(self.valences.0, knots, &options, &Range::default());
+        let results = on_threads(self.threads, || regenerate(&parameters, &self.out, self.output.format))??;
+        if let Some(path) = &self.embed {
+            let table = results::table(&results.valences, &parameters)?;
+            files::write(path, table.to_json()?.as_bytes())?;
+        }
+        files::emit(None, summary(&results.valences).render(self.output.format).as_bytes())?;
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// Runs work on a pool of that many threads, or on one for each core.
+fn on_threads<T: Send>(threads: Option<u16>, work: impl FnOnce() -> T + Send) -> Result<T, Error> {
+    let count = threads.map_or(0, usize::from);
+    match rayon::ThreadPoolBuilder::new().num_threads(count).build() {
+        Ok(pool) => Ok(pool.install(work)),
+        Err(error) => Err(Error::Usage {
+            message: format!("cannot start {count} threads: {error}"),
+            accepted: "a smaller number".to_owned(),
+        }),
+    }
+}
+
+/// Computes and writes everything below `out`.
+pub fn regenerate(parameters: &Parameters, out: &Path, format: Format) -> Result<Results, Error> {
+    let folder = out.join(FOLDER);
+    files::check_writable(&folder)?;
+    let resume = folder.join(RESUME);
+    let studies = studies(parameters, Some(&resume))?;
+    let results = Results::new(studies, parameters.clone())?;
+    let mut all = results.files();
+    if format == Format::Latex {
+        all.extend(results.latex());
+    }
+    for (name, text) in all {
+        files::write(&folder.join(name), text.as_bytes())?;
+    }
+    // only now nothing is left to resume
+    std::fs::remove_dir_all(&resume).map_err(|source| Error::Write { path: resume, source })?;
+    Ok(results)
+}
+
+/// What people look at first.
+fn summary(studies: &[Study]) -> Table {
+    let mut table = Table::new([
+        "N", "lambda_l", "lambda_C", "paper", "difference", "E", "f2", "f3", "active", "excess", "strictness",
+    ]);
+    for study in studies {
+        let best = study.global.optimum();
+        let paper = study.featured("lambda_C").and_then(|f| f.paper);
+        table.push(vec![
+            study.valence.into(),
+            study.lambda_l.into(),
+            best.lambda.into(),
+            paper.into(),
+            paper.map(|paper| best.lambda - paper).into(),
+            best.minimum.total.into(),
+            best.minimum.f2.into(),
+            best.minimum.f3.into(),
+            best.minimum.active.join("+").into(),
+            study.accuracy.excess.into(),
+            study.accuracy.strictness.into(),
+        ]);
+    }
+    table
+}

@@ -1,0 +1,180 @@
+//! The main job: samples in parallel, then a study for each valence.
+
+use crate::checkpoint::Checkpoint;
+use crate::error::Error;
+use crate::progress;
+use eigenring_scheme::lambda::Bounds;
+use eigenring_tune::global::{Global, global};
+use eigenring_tune::objective::{Normalisation, Settings};
+use eigenring_tune::search::Starts;
+use eigenring_tune::study::{Knots, Study};
+use eigenring_tune::sweep::{Options, Range, Sample, sample};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// Everything that results depend on, as it is recorded with them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Parameters {
+    /// The valences.
+    pub valences: Vec<usize>,
+    /// "10x10" or "full".
+    pub starts: String,
+    /// "paper" or "sharp".
+    pub bounds: String,
+    /// "detected" or "paper".
+    pub knots: Knots,
+    /// Relative margin of the samples.
+    pub margin: f64,
+    /// Ratio alpha / beta.
+    pub phi: f64,
+    /// Constants of the weight.
+    pub epsilon: f64,
+    /// Constants of the weight.
+    pub weight: f64,
+    /// Whether the weight is applied.
+    pub weighted: bool,
+    /// Gauss points per patch and direction.
+    pub quadrature: usize,
+    /// "paper" or "unit-ring".
+    pub normalisation: String,
+    /// lambda_a and lambda_e.
+    pub range: [f64; 2],
+    /// Steps below and above lambda_l.
+    pub steps: [usize; 2],
+}
+
+impl Parameters {
+    /// The parameters of a run.
+    pub fn new(valences: Vec<usize>, knots: Knots, options: &Options, range: &Range) -> Self {
+        let settings = &options.settings;
+        Parameters {
+            valences,
+            starts: match options.starts {
+                Starts::Grid => "10x10",
+                Starts::Full => "full",
+            }
+            .to_owned(),
+            bounds: match options.bounds {
+                Bounds::Paper => "paper",
+                Bounds::Sharp => "sharp",
+            }
+            .to_owned(),
+            knots,
+            margin: options.margin,
+            phi: options.phi,
+            epsilon: settings.epsilon,
+            weight: settings.n,
+            weighted: settings.weighted,
+            quadrature: settings.quadrature_order,
+            normalisation: match settings.normalisation {
+                Normalisation::UnitRing => "unit-ring",
+                _ => "paper",
+            }
+            .to_owned(),
+            range: [range.start, range.end],
+            steps: [range.below, range.above],
+        }
+    }
+
+    /// The run that is described; words that are not known count as the defaults.
+    pub fn options(&self) -> (Options, Range) {
+        let options = Options {
+            bounds: if self.bounds == "sharp" { Bounds::Sharp } else { Bounds::Paper },
+            margin: self.margin,
+            phi: self.phi,
+            settings: Settings {
+                epsilon: self.epsilon,
+                n: self.weight,
+                quadrature_order: self.quadrature,
+                weighted: self.weighted,
+                normalisation: match self.normalisation.as_str() {
+                    "unit-ring" => Normalisation::UnitRing,
+                    _ => Normalisation::Paper,
+                },
+            },
+            starts: if self.starts == "full" { Starts::Full } else { Starts::Grid },
+        };
+        let range = Range {
+            start: self.range[0],
+            end: self.range[1],
+            below: self.steps[0],
+            above: self.steps[1],
+        };
+        (options, range)
+    }
+
+    /// What the samples depend on, on one line: the parameters but those that come later, and the tool's version.
+    fn sample_key(&self) -> String {
+        let later = Parameters {
+            valences: Vec::new(),
+            knots: Knots::Detected,
+            ..self.clone()
+        };
+        let parameters = serde_json::to_string(&later).unwrap_or_default();
+        format!("{{\"version\":\"{}\",\"parameters\":{parameters}}}", env!("CARGO_PKG_VERSION"))
+    }
+}
+
+/// Computes the studies of all valences, in their order. With a folder, finished samples are kept there and taken from there.
+pub fn studies(parameters: &Parameters, folder: Option<&Path>) -> Result<Vec<Study>, Error> {
+    let (options, range) = parameters.options();
+    let mut tasks = Vec::new();
+    let mut checkpoints = Vec::new();
+    for (index, &valence) in parameters.valences.iter().enumerate() {
+        let lambdas = range.lambdas(valence)?;
+        tasks.extend(lambdas.into_iter().map(|lambda| (index, valence, lambda)));
+        checkpoints.push(match folder {
+            Some(folder) => Some(Checkpoint::open(folder, valence, &parameters.sample_key())?),
+            None => None,
+        });
+    }
+    let bar = progress::bar("tuning", tasks.len());
+    let computed: Vec<Sample> = tasks
+        .par_iter()
+        .map(|&(index, valence, lambda)| {
+            let checkpoint = checkpoints[index].as_ref();
+            let found = match checkpoint.and_then(|checkpoint| checkpoint.get(lambda)) {
+                Some(sample) => Ok(sample.clone()),
+                None => sample(valence, lambda, &options).map_err(Error::from).and_then(|sample| {
+                    checkpoint.map_or(Ok(()), |checkpoint| checkpoint.add(&sample))?;
+                    Ok(sample)
+                }),
+            };
+            bar.inc(1);
+            found
+        })
+        .collect::<Result<_, Error>>()?;
+    bar.finish_and_clear();
+
+    let bar = progress::bar("splines", parameters.valences.len());
+    let studies = parameters
+        .valences
+        .par_iter()
+        .map(|&valence| {
+            let samples: Vec<Sample> = computed.iter().filter(|s| s.valence == valence).cloned().collect();
+            let study = Study::new(&samples, &range, &options, parameters.knots)?;
+            bar.inc(1);
+            Ok(study)
+        })
+        .collect::<Result<Vec<Study>, Error>>();
+    bar.finish_and_clear();
+    studies
+}
+
+/// The minima over lambda of one valence, and the samples between which they were found.
+pub fn minima_over_lambda(valence: usize, options: &Options) -> Result<(Global, Vec<Sample>), Error> {
+    let lambdas = Range::default().lambdas(valence)?;
+    let bar = progress::bar("tuning", lambdas.len());
+    let samples = lambdas
+        .into_par_iter()
+        .map(|lambda| {
+            let found = sample(valence, lambda, options);
+            bar.inc(1);
+            found
+        })
+        .collect::<Result<Vec<Sample>, _>>()?;
+    bar.finish_and_clear();
+    Ok((global(&samples, options)?, samples))
+}

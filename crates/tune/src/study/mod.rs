@@ -1,0 +1,442 @@
+//! One valence from samples to spline stencils: everything that is tabulated.
+//!
+//! The steps of Ma, Wang and Ma (2023, section 4) in order: the global optimum over lambda, the branch of tuned stencils
+//! through it, the triple knots, the splines of f3 and f2, and the featured values of lambda. A [`Study`] is plain data;
+//! whatever it claims about its splines ([`Accuracy`]) is measured on the splines themselves, at lambdas other than
+//! those at which the fit imposed its bounds.
+
+mod admissible;
+mod recommended;
+
+pub use recommended::second_ring_convexity;
+
+use crate::global::{Global, global};
+use crate::objective::Objective;
+use crate::spline::{self, FitError, Slot, Source, StencilSample, fit_stencils};
+use crate::sweep::{self, BranchSample, Options, Range, Sample, branch};
+use admissible::Admissible;
+use eigenring_scheme::lambda::{Domain, Entry, LambdaKnots, PAPER_TABLE_1, PaperRow, Relaxation};
+use serde::{Deserialize, Serialize};
+
+/// The paper's lambda for optimal convergence in analysis.
+pub const LAMBDA_A: f64 = 0.39;
+/// The paper's lambda for uniform refined meshes.
+pub const LAMBDA_M: f64 = 0.5;
+/// The paper's empirical start of the recommended region.
+pub const LAMBDA_R1: f64 = 0.2;
+
+/// The relative margin with which the splines keep within the eigenvalue bounds: half of that of the samples, so that a
+/// spline may pass between them.
+pub const SPLINE_MARGIN: f64 = 1e-6;
+
+/// Lambdas, besides the samples and the kinks of s, at which the splines' bounds are imposed. Every fourth of them is one of
+/// 2000 in equal steps; with steps four times as long splines passed bounds between them by 2e-6 mu.
+const DENSE: usize = 4 * 1999 + 1;
+
+/// Coefficients below this are zero: where a bound f3 >= 0 holds over an interval, the exact coefficients vanish, and the
+/// fit's are rounding errors.
+const ZERO: f64 = 1e-13;
+
+/// Which triple knots.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Knots {
+    /// Found from the samples: kinks of s and changes of the active bounds.
+    #[default]
+    Detected,
+    /// Those of the paper's Table 1, where it has the valence.
+    Paper,
+}
+
+/// The tabulated results of one valence.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Study {
+    /// The valence.
+    pub valence: usize,
+    /// The smallest lambda with bounded curvature.
+    pub lambda_l: f64,
+    /// The minima over lambda; the first is lambda_C*.
+    pub global: Global,
+    /// The branch through the global optimum, at the sample lambdas.
+    pub samples: Vec<BranchSample>,
+    /// The triple knots.
+    pub knots: KnotTable,
+    /// The spline of f2.
+    pub f2: SplineTable,
+    /// The spline of f3; at N = 4 only an approximation of mu.
+    pub f3: SplineTable,
+    /// The featured lambdas with the splines' stencils there.
+    pub featured: Vec<Featured>,
+    /// How well the splines stand for the samples.
+    pub accuracy: Accuracy,
+}
+
+/// The knots and how they were found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct KnotTable {
+    /// Detected or the paper's.
+    pub source: Knots,
+    /// The knots.
+    pub values: LambdaKnots,
+    /// Whether b, c, d are kinks; where they are not, the splines are twice differentiable.
+    pub kinks: [bool; 3],
+    /// All candidates.
+    pub candidates: Vec<KnotCandidate>,
+}
+
+/// A possible kink.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct KnotCandidate {
+    /// Where.
+    pub lambda: f64,
+    /// "b" or "d".
+    pub slot: String,
+    /// "active_set", "relaxation" or "default".
+    pub source: String,
+    /// Root mean square residual of an unconstrained fit with the best partner; none if too few samples lie between.
+    pub residual: Option<f64>,
+}
+
+/// A fitted spline.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SplineTable {
+    /// The 17 coefficients.
+    pub coefficients: [f64; LambdaKnots::DIMENSION],
+    /// Largest distance from a sample.
+    pub max_residual: f64,
+    /// The lambda of that sample.
+    pub worst_sample: f64,
+    /// Largest defect of the optimality conditions of the constrained least-squares problem.
+    pub kkt: f64,
+    /// Bounds that carry the optimum.
+    pub active_bounds: usize,
+}
+
+/// A featured lambda.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Featured {
+    /// The name in the paper's Table 1: lambda_r1, lambda_b, lambda_A, lambda_l, lambda_M, lambda_CC, lambda_d, lambda_C,
+    /// lambda_r2.
+    pub name: String,
+    /// The value.
+    pub lambda: f64,
+    /// The value in the paper, if it has the valence.
+    pub paper: Option<f64>,
+    /// The spline's f2 there.
+    pub f2: f64,
+    /// The spline's f3 there (N = 4: mu).
+    pub f3: f64,
+    /// The objective there.
+    pub total: f64,
+}
+
+/// What the splines lose against the samples, and how far they stay from the bounds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Accuracy {
+    /// Largest `|f2 - sample|` for lambda in the recommended region.
+    pub f2: f64,
+    /// Largest `|f3 - sample|` for lambda in the recommended region.
+    pub f3: f64,
+    /// Largest `E / E_sample - 1` in the recommended region, over samples with `E_sample` above [`TINY`].
+    pub excess: f64,
+    /// The lambda of that sample.
+    pub excess_at: f64,
+    /// Largest `E / E_sample - 1` over all samples with `E_sample` above [`TINY`].
+    pub excess_overall: f64,
+    /// Smallest `1 - |lambda_6| / mu` over 16000 lambdas, the samples and the kinks of s.
+    pub strictness: f64,
+    /// Smallest slack of all constraints over the same lambdas, with the margin of [`SPLINE_MARGIN`]: negative only by
+    /// rounding, or where a bound bends between the lambdas at which it was imposed.
+    pub slack: f64,
+    /// The lambda of the smallest slack.
+    pub slack_at: f64,
+}
+
+/// E near a quadratic precision of rounding: a ratio to it means nothing (N = 4, lambda = 1/2).
+pub const TINY: f64 = 1e-9;
+
+/// Why a study fails.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A sample, the global optimum or the branch.
+    #[error(transparent)]
+    Sweep(#[from] sweep::Error),
+    /// The splines.
+    #[error("valence {valence}: {source}")]
+    Fit {
+        /// The valence.
+        valence: usize,
+        /// What is wrong.
+        source: FitError,
+    },
+    /// The scheme's own closed forms.
+    #[error(transparent)]
+    Scheme(#[from] eigenring_scheme::Error),
+    /// The natural configuration.
+    #[error(transparent)]
+    Spectral(#[from] eigenring_spectral::Error),
+    /// The objective at a spline's stencil.
+    #[error(transparent)]
+    Objective(#[from] crate::objective::Error),
+}
+
+/// The row of the paper's Table 1.
+pub fn paper_row(valence: usize) -> Option<&'static PaperRow> {
+    PAPER_TABLE_1.iter().find(|row| row.valence == valence)
+}
+
+/// The subdominant eigenvalue of Catmull-Clark subdivision: `(5 + c + sqrt((c+9)(c+1)))/16`, `c = cos(2 pi/N)`.
+pub fn lambda_catmull_clark(valence: usize) -> f64 {
+    let c = (std::f64::consts::TAU / valence as f64).cos();
+    (5.0 + c + ((c + 9.0) * (c + 1.0)).sqrt()) / 16.0
+}
+
+impl Study {
+    /// Everything that follows from the samples of one valence, which must be those of `range`, ascending in lambda, computed
+    /// with the same options.
+    ///
+    /// # Errors
+    /// Those of the steps; [`Error::Fit`] if lambda_l is not inside the range (N > 22 with the paper's range): the
+    /// structure of Eq. 21 has a triple knot there.
+    pub fn new(samples: &[Sample], range: &Range, options: &Options, knots: Knots) -> Result<Self, Error> {
+        let global = global(samples, options)?;
+        let optimum = global.optimum();
+        let (valence, best) = (global.valence, &optimum.minimum);
+        let samples = branch(samples, optimum.lambda, best.f2, best.f3, options)?;
+        let relaxation = Relaxation::new(valence)?;
+        let lambda_l = relaxation.lambda_l();
+        let failed = |source| Error::Fit { valence, source };
+
+        let interpolated = (optimum.lambda, best.f2, best.f3);
+        let labelled = label(&samples);
+        let (values, kinks, candidates) =
+            choose(&labelled, range, &relaxation, interpolated, knots, valence).map_err(failed)?;
+        let admissible = Admissible::new(relaxation, options, SPLINE_MARGIN, &samples);
+        let grid = dense(range, &relaxation, 0.0);
+        let fit = fit_stencils(&values, kinks, &labelled, interpolated, &grid, &admissible).map_err(failed)?;
+        let [f2, f3] = [&fit.f2, &fit.f3].map(|fit| SplineTable {
+            coefficients: std::array::from_fn(|i| {
+                let coefficient = fit.spline.coefficients()[i];
+                if coefficient.abs() < ZERO { 0.0 } else { coefficient }
+            }),
+            max_residual: fit.max_residual,
+            worst_sample: fit.worst_sample,
+            kkt: fit.kkt.worst(),
+            active_bounds: fit.active.len(),
+        });
+        let mut study = Study {
+            valence,
+            lambda_l,
+            global,
+            samples,
+            knots: KnotTable {
+                source: knots,
+                values,
+                kinks,
+                candidates,
+            },
+            f2,
+            f3,
+            featured: Vec::new(),
+            accuracy: Accuracy {
+                f2: 0.0,
+                f3: 0.0,
+                excess: 0.0,
+                excess_at: 0.0,
+                excess_overall: 0.0,
+                strictness: 0.0,
+                slack: 0.0,
+                slack_at: 0.0,
+            },
+        };
+        let end = recommended::end(&study.entry(options.phi, range.end), range.end)?;
+        let entry = study.entry(options.phi, end);
+        study.featured = study.feature(&entry, options)?;
+        study.accuracy = study.measure(&entry, range, options)?;
+        Ok(study)
+    }
+
+    /// The entry of the embedded table.
+    pub fn entry(&self, phi: f64, lambda_r2: f64) -> Entry {
+        Entry {
+            valence: self.valence,
+            knots: self.knots.values,
+            f2: self.f2.coefficients,
+            f3: self.f3.coefficients,
+            lambda_optimal: self.global.optimum().lambda,
+            lambda_l: self.lambda_l,
+            lambda_r1: LAMBDA_R1,
+            lambda_r2,
+            phi,
+        }
+    }
+
+    /// The value of a featured lambda.
+    pub fn featured(&self, name: &str) -> Option<&Featured> {
+        self.featured.iter().find(|featured| featured.name == name)
+    }
+
+    fn feature(&self, entry: &Entry, options: &Options) -> Result<Vec<Featured>, Error> {
+        let paper = paper_row(self.valence);
+        let column = |get: fn(&PaperRow) -> f64| paper.map(get);
+        let knots = &self.knots.values;
+        [
+            ("lambda_r1", LAMBDA_R1, column(|row| row.lambda_r1)),
+            ("lambda_b", knots.b, column(|row| row.lambda_b)),
+            ("lambda_A", LAMBDA_A, column(|row| row.lambda_a_star)),
+            ("lambda_l", self.lambda_l, column(|row| row.lambda_l)),
+            ("lambda_M", LAMBDA_M, column(|row| row.lambda_m_star)),
+            ("lambda_CC", lambda_catmull_clark(self.valence), column(|row| row.lambda_cc)),
+            ("lambda_d", knots.d, column(|row| row.lambda_d)),
+            ("lambda_C", entry.lambda_optimal, column(|row| row.lambda_c_star)),
+            ("lambda_r2", entry.lambda_r2, column(|row| row.lambda_r2)),
+        ]
+        .into_iter()
+        .filter(|&(_, lambda, _)| (knots.a..=knots.e).contains(&lambda))
+        .map(|(name, lambda, paper)| {
+            let (f2, f3) = entry.weights(lambda)?;
+            Ok(Featured {
+                name: name.to_owned(),
+                lambda,
+                paper,
+                f2,
+                f3,
+                total: objective(self.valence, lambda, options)?.value(f2, f3)?,
+            })
+        })
+        .collect()
+    }
+
+    fn measure(&self, entry: &Entry, range: &Range, options: &Options) -> Result<Accuracy, Error> {
+        let relaxation = Relaxation::new(self.valence)?;
+        let mut accuracy = Accuracy {
+            f2: 0.0,
+            f3: 0.0,
+            excess: 0.0,
+            excess_at: LAMBDA_R1,
+            excess_overall: 0.0,
+            strictness: f64::INFINITY,
+            slack: f64::INFINITY,
+            slack_at: range.start,
+        };
+        for sample in &self.samples {
+            let (f2, f3) = entry.weights(sample.lambda)?;
+            let total = objective(self.valence, sample.lambda, options)?.value(f2, f3)?;
+            let excess = if sample.minimum.total > TINY { total / sample.minimum.total - 1.0 } else { 0.0 };
+            accuracy.excess_overall = accuracy.excess_overall.max(excess);
+            if (entry.lambda_r1..=entry.lambda_r2).contains(&sample.lambda) {
+                accuracy.f2 = accuracy.f2.max((f2 - sample.minimum.f2).abs());
+                accuracy.f3 = accuracy.f3.max((f3 - sample.minimum.f3).abs());
+                if excess > accuracy.excess {
+                    (accuracy.excess, accuracy.excess_at) = (excess, sample.lambda);
+                }
+            }
+        }
+        // both where the bounds were imposed and half-way between
+        let lambdas = dense(range, &relaxation, 0.0).into_iter().chain(dense(range, &relaxation, 0.5));
+        for lambda in lambdas.chain(self.samples.iter().map(|sample| sample.lambda)) {
+            let (f2, f3) = entry.weights(lambda)?;
+            let mut plane = relaxation.plane(lambda)?;
+            plane.phi = options.phi;
+            let domain = Domain::new(plane, options.bounds, SPLINE_MARGIN)?;
+            for (constraint, slack) in domain.slack(f2, f3) {
+                // the slack of an eigenvalue bound is (1 - margin) mu - |eigenvalue|
+                if constraint.is_eigenvalue_bound() {
+                    accuracy.strictness = accuracy.strictness.min(slack / plane.mu() + SPLINE_MARGIN);
+                }
+                if slack < accuracy.slack {
+                    (accuracy.slack, accuracy.slack_at) = (slack, lambda);
+                }
+            }
+        }
+        Ok(accuracy)
+    }
+}
+
+fn objective(valence: usize, lambda: f64, options: &Options) -> Result<Objective, Error> {
+    let mut plane = Relaxation::new(valence)?.plane(lambda)?;
+    plane.phi = options.phi;
+    Ok(Objective::new(plane, options.settings)?)
+}
+
+/// `DENSE` lambdas over the range, moved by a fraction of their spacing, and the kinks of s.
+fn dense(range: &Range, relaxation: &Relaxation, shift: f64) -> Vec<f64> {
+    let step = (range.end - range.start) / (DENSE - 1) as f64;
+    let mut lambdas: Vec<f64> = (0..DENSE)
+        .map(|i| (range.start + (i as f64 + shift) * step).min(range.end))
+        .chain(relaxation.kinks())
+        .filter(|lambda| (range.start..=range.end).contains(lambda))
+        .collect();
+    lambdas.sort_by(f64::total_cmp);
+    lambdas.dedup();
+    lambdas
+}
+
+/// The samples with their sets of active bounds as labels: one number for each set, in order of appearance.
+fn label(samples: &[BranchSample]) -> Vec<StencilSample> {
+    let mut sets: Vec<&Vec<String>> = Vec::new();
+    let mut labelled = Vec::with_capacity(samples.len());
+    for sample in samples {
+        let set = &sample.minimum.active;
+        let index = sets.iter().position(|known| *known == set).unwrap_or_else(|| {
+            sets.push(set);
+            sets.len() - 1
+        });
+        labelled.push(StencilSample {
+            lambda: sample.lambda,
+            f2: sample.minimum.f2,
+            f3: sample.minimum.f3,
+            active: index as u32,
+        });
+    }
+    labelled
+}
+
+type Choice = (LambdaKnots, [bool; 3], Vec<KnotCandidate>);
+
+fn choose(
+    samples: &[StencilSample],
+    range: &Range,
+    relaxation: &Relaxation,
+    optimum: (f64, f64, f64),
+    knots: Knots,
+    valence: usize,
+) -> Result<Choice, FitError> {
+    let inside = |lambda: &f64| range.start < *lambda && *lambda < range.end;
+    let kinks: Vec<f64> = relaxation.kinks().into_iter().filter(inside).collect();
+    let ends = (range.start, range.end);
+    let choice = spline::choose_knots(samples, ends, relaxation.lambda_l(), optimum, &kinks)?;
+    let candidates = choice
+        .candidates
+        .iter()
+        .map(|candidate| KnotCandidate {
+            lambda: candidate.lambda,
+            slot: match candidate.slot {
+                Slot::B => "b",
+                Slot::D => "d",
+            }
+            .to_owned(),
+            source: match candidate.source {
+                Source::ActiveSet { .. } => "active_set",
+                Source::Analytic => "relaxation",
+                Source::Default => "default",
+            }
+            .to_owned(),
+            residual: candidate.residual,
+        })
+        .collect();
+    Ok(match paper_row(valence).filter(|_| knots == Knots::Paper) {
+        // the printed digits of lambda_c are replaced by the exact value; every tabulated knot may be a kink
+        Some(row) => {
+            let values = LambdaKnots {
+                a: range.start,
+                c: relaxation.lambda_l(),
+                e: range.end,
+                ..row.knots()
+            };
+            (values, [true; 3], candidates)
+        }
+        None => (choice.knots, choice.kinks, candidates),
+    })
+}
