@@ -208,7 +208,7 @@ struct Envelope<'a> {
 /// m for one bracket, as argmin wants it.
 struct Continued<'a, 'b> {
     envelope: &'a Envelope<'b>,
-    seeds: &'a [[f64; 2]],
+    seeds: [[f64; 2]; 3],
 }
 
 impl CostFunction for Continued<'_, '_> {
@@ -222,20 +222,22 @@ impl CostFunction for Continued<'_, '_> {
 
 impl Envelope<'_> {
     /// The lowest of the minima that are continued from the seeds.
-    fn lowest(&self, lambda: f64, seeds: &[[f64; 2]]) -> Result<(Problem, Optimum), Error> {
+    fn lowest<const K: usize>(&self, lambda: f64, seeds: [[f64; 2]; K]) -> Result<(Problem, Optimum), Error> {
+        const { assert!(K > 0, "a minimum is continued from at least one seed") };
         let problem = Problem::new(self.valence, lambda, self.options)?;
-        let mut lowest: Option<Optimum> = None;
-        for &seed in seeds {
+        let descend = |seed| {
             let (optimum, evaluations) = problem.continue_from(seed)?;
             self.evaluations.set(self.evaluations.get() + evaluations);
-            if lowest.as_ref().is_none_or(|lowest| optimum.total < lowest.total) {
-                lowest = Some(optimum);
+            Ok::<Optimum, Error>(optimum)
+        };
+        let mut lowest = descend(seeds[0])?;
+        for &seed in &seeds[1..] {
+            let other = descend(seed)?;
+            if other.total < lowest.total {
+                lowest = other;
             }
         }
-        match lowest {
-            Some(optimum) => Ok((problem, optimum)),
-            None => Err(Error::TooFew { count: 0 }),
-        }
+        Ok((problem, lowest))
     }
 
     /// The minimum inside a bracket without kinks, of which the node in it or at its end has the lowest value; `None` if there is
@@ -246,10 +248,7 @@ impl Envelope<'_> {
             [lowest(ends[0]), lowest(node), lowest(ends[1])],
             ends.map(|end| end.lambda),
         );
-        let continued = Continued {
-            envelope: self,
-            seeds: &seeds,
-        };
+        let continued = Continued { envelope: self, seeds };
         // half of the digits are all that values can give
         let solver = BrentOpt::new(bracket[0], bracket[1]).set_tolerance(f64::EPSILON.sqrt(), 1e-9);
         let run = Executor::new(continued, solver)
@@ -258,7 +257,7 @@ impl Envelope<'_> {
         // every problem between two samples can be set up and evaluated, or its error is met again below
         let found = run.ok().and_then(|run| run.state().get_best_param().copied());
         let lambda = found.unwrap_or(0.5 * (bracket[0] + bracket[1]));
-        let (problem, optimum) = self.lowest(lambda, &seeds)?;
+        let (problem, optimum) = self.lowest(lambda, seeds)?;
         let inside = bracket.iter().all(|end| (lambda - end).abs() > MERGE);
         if !inside || optimum.total > node.minima[0].total {
             return Ok(None);
@@ -289,7 +288,7 @@ impl Envelope<'_> {
             let mut values = [0.0; 5];
             for (i, value) in values.iter_mut().enumerate() {
                 let at = lambda + (i as f64 - 2.0) * step;
-                *value = self.lowest(at, &[[optimum.f2, optimum.f3]])?.1.total;
+                *value = self.lowest(at, [[optimum.f2, optimum.f3]])?.1.total;
             }
             let [a, b, c, d, e] = values;
             let slope = (8.0 * (d - b) - (e - a)) / (12.0 * step);
@@ -300,7 +299,7 @@ impl Envelope<'_> {
                 break;
             }
             let next = lambda + change;
-            let (next_problem, next_optimum) = self.lowest(next, &[[optimum.f2, optimum.f3]])?;
+            let (next_problem, next_optimum) = self.lowest(next, [[optimum.f2, optimum.f3]])?;
             // Brent's point may be better only by rounding
             if next_optimum.total > optimum.total * (1.0 + 1e-9) {
                 break;

@@ -193,7 +193,8 @@ fn rank_one(hessian: Hessian, step: [f64; 2], old: [f64; 2], new: [f64; 2]) -> H
         new[1] - old[1] - (hxy * step[0] + hyy * step[1]),
     ];
     let divisor = dot(miss, step);
-    if !(divisor.abs() > 1e-8 * norm(miss) * norm(step)) {
+    let usable = divisor.abs() > 1e-8 * norm(miss) * norm(step);
+    if !usable {
         return hessian;
     }
     [
