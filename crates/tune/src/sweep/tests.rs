@@ -115,15 +115,16 @@ fn the_branch_is_continuous_where_the_lowest_minimum_jumps() {
 
 #[test]
 fn a_basin_that_ends_is_marked() {
-    // the basin at larger f2 ends between 0.66 and 0.70, and the branch continues in the other one, or follows to its end
-    let samples = samples(3, 0.60, 0.85, 10);
-    let branch = branch(&samples, 0.60, 0.2270, 0.4729, &Options::default()).unwrap();
-    let jumps = branch.iter().filter(|sample| sample.jumped).count();
-    let lengths = branch
-        .windows(2)
-        .map(|pair| (pair[0].minimum.f2 - pair[1].minimum.f2).abs());
-    let longest = lengths.fold(0.0, f64::max);
-    assert_eq!(jumps > 0, longest > 0.04, "{jumps} jumps, longest move {longest}");
+    // the basin at smaller f2 ends near 0.67
+    let samples = samples(3, 0.64, 0.72, 8);
+    let branch = branch(&samples, 0.648, 0.16656, 0.5142, &Options::default()).unwrap();
+    let jumps: Vec<f64> = branch.iter().filter(|s| s.jumped).map(|s| s.lambda).collect();
+    assert_eq!(jumps.len(), 1, "{jumps:?}");
+    assert!(0.665 < jumps[0] && jumps[0] < 0.69, "{jumps:?}");
+    for sample in &branch {
+        assert_eq!(sample.minimum.f2 < 0.19, sample.lambda < jumps[0]);
+        assert!(sample.lowest.is_none() || sample.lambda > 0.657 && sample.lambda < jumps[0]);
+    }
 }
 
 #[test]
