@@ -39,7 +39,11 @@ impl FromStr for Valences {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let refuse = || format!("'{text}' is no list of valences: accepted are numbers from 3 to {MAX_VALENCE} and ranges, such as 3..20 or 3,5,8..10");
+        let refuse = || {
+            format!(
+                "'{text}' is no list of valences: accepted are numbers from 3 to {MAX_VALENCE} and ranges, such as 3..20 or 3,5,8..10"
+            )
+        };
         let mut valences = Vec::new();
         for part in text.split(',') {
             let number = |text: &str| text.trim().parse::<usize>().map_err(|_| refuse());

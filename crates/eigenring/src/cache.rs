@@ -15,7 +15,11 @@ pub struct Cache {
 
 impl Default for Cache {
     fn default() -> Self {
-        let variable = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+        let variable = |name: &str| {
+            std::env::var_os(name)
+                .filter(|value| !value.is_empty())
+                .map(PathBuf::from)
+        };
         let folder = variable("EIGENRING_CACHE")
             .or_else(|| variable("XDG_CACHE_HOME").map(|path| path.join("eigenring")))
             .or_else(|| variable("HOME").map(|path| path.join(".cache/eigenring")));

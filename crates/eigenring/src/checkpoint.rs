@@ -42,10 +42,13 @@ impl Checkpoint {
         }
         // without the line that was cut off, if there is one
         files::write(&path, kept.as_bytes())?;
-        let file = File::options().append(true).open(&path).map_err(|source| Error::Write {
-            path: path.clone(),
-            source,
-        })?;
+        let file = File::options()
+            .append(true)
+            .open(&path)
+            .map_err(|source| Error::Write {
+                path: path.clone(),
+                source,
+            })?;
         Ok(Checkpoint {
             path,
             file: Mutex::new(file),
@@ -93,6 +96,9 @@ mod tests {
         assert_eq!(resumed.get(samples[1].lambda), None);
         resumed.add(&samples[1]).unwrap();
         assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
-        assert_eq!(Checkpoint::open(folder.path(), 5, "q").unwrap().get(samples[0].lambda), None);
+        assert_eq!(
+            Checkpoint::open(folder.path(), 5, "q").unwrap().get(samples[0].lambda),
+            None
+        );
     }
 }

@@ -117,10 +117,18 @@ pub fn compare_csv(expected: &str, found: &str, atol: f64, rtol: f64) -> Compari
             .collect()
     };
     let (expected, found) = (records(expected), records(found));
-    comparer.word(|| "rows".to_owned(), &expected.len().to_string(), &found.len().to_string());
+    comparer.word(
+        || "rows".to_owned(),
+        &expected.len().to_string(),
+        &found.len().to_string(),
+    );
     let header = expected.first().cloned().unwrap_or_default();
     for (index, (a, b)) in expected.iter().zip(&found).enumerate() {
-        comparer.word(|| format!("columns of row {}", index + 1), &a.len().to_string(), &b.len().to_string());
+        comparer.word(
+            || format!("columns of row {}", index + 1),
+            &a.len().to_string(),
+            &b.len().to_string(),
+        );
         for (column, (a, b)) in a.iter().zip(b).enumerate() {
             let name = header.get(column).map_or("", String::as_str);
             if NOT_COMPARED.contains(&name) {
@@ -168,8 +176,17 @@ mod tests {
     #[test]
     fn json_is_compared_by_structure() {
         let expected = r#"{"a":[1.0,{"b":"w"}],"kkt":1}"#;
-        assert!(compare_json(expected, r#"{"a":[1.0,{"b":"w"}],"kkt":2}"#, 0.0, 0.0).differences.is_empty());
-        for bad in [r#"{"a":[1.0],"kkt":1}"#, r#"{"a":[1.1,{"b":"w"}],"kkt":1}"#, "not json", r#"{"a":[null,{"b":"w"}],"kkt":1}"#] {
+        assert!(
+            compare_json(expected, r#"{"a":[1.0,{"b":"w"}],"kkt":2}"#, 0.0, 0.0)
+                .differences
+                .is_empty()
+        );
+        for bad in [
+            r#"{"a":[1.0],"kkt":1}"#,
+            r#"{"a":[1.1,{"b":"w"}],"kkt":1}"#,
+            "not json",
+            r#"{"a":[null,{"b":"w"}],"kkt":1}"#,
+        ] {
             assert!(!compare_json(expected, bad, 1e-9, 1e-9).differences.is_empty(), "{bad}");
         }
     }

@@ -24,7 +24,9 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let arguments: Vec<_> = std::env::args_os().collect();
     // known before parsing, since errors of parsing are reported in this format too
-    let json = arguments.windows(2).any(|pair| pair[0] == "--format" && pair[1] == "json")
+    let json = arguments
+        .windows(2)
+        .any(|pair| pair[0] == "--format" && pair[1] == "json")
         || arguments.iter().any(|argument| argument == "--format=json");
     let result = match commands::Cli::try_parse_from(&arguments) {
         Ok(cli) => cli.run(),

@@ -125,8 +125,14 @@ pub fn tables(studies: &[Study]) -> Vec<(&'static str, Table)> {
         ("table1_featured_lambda", featured(studies)),
         ("table2_f2_at_featured", at_featured(studies, |f| f.f2)),
         ("table3_f3_at_featured", at_featured(studies, |f| f.f3)),
-        ("table5_f2_coefficients", coefficients(studies, |study| &study.f2.coefficients)),
-        ("table6_f3_coefficients", coefficients(studies, |study| &study.f3.coefficients)),
+        (
+            "table5_f2_coefficients",
+            coefficients(studies, |study| &study.f2.coefficients),
+        ),
+        (
+            "table6_f3_coefficients",
+            coefficients(studies, |study| &study.f3.coefficients),
+        ),
         ("knots", knots(studies)),
         ("kinks", kinks(studies)),
         ("samples", samples(studies)),
@@ -187,7 +193,11 @@ fn knots(studies: &[Study]) -> Table {
     let mut table = Table::new(std::iter::once("valence".to_owned()).chain((1..=21).map(|i| format!("xi{i}"))));
     for study in studies {
         // Eq. 21: fourfold ends, triple knots b, c, d, and the middles. A study's knots were valid when it was made
-        let knots = study.knots.values.knots().map_or(Vec::new(), |knots| knots.values().to_vec());
+        let knots = study
+            .knots
+            .values
+            .knots()
+            .map_or(Vec::new(), |knots| knots.values().to_vec());
         let cells = (0..21).map(|i| knots.get(i).copied().into());
         table.push(std::iter::once(study.valence.into()).chain(cells).collect());
     }

@@ -81,7 +81,11 @@ impl Parameters {
     /// The run that is described; words that are not known count as the defaults.
     pub fn options(&self) -> (Options, Range) {
         let options = Options {
-            bounds: if self.bounds == "sharp" { Bounds::Sharp } else { Bounds::Paper },
+            bounds: if self.bounds == "sharp" {
+                Bounds::Sharp
+            } else {
+                Bounds::Paper
+            },
             margin: self.margin,
             phi: self.phi,
             settings: Settings {
@@ -94,7 +98,11 @@ impl Parameters {
                     _ => Normalisation::Paper,
                 },
             },
-            starts: if self.starts == "full" { Starts::Full } else { Starts::Grid },
+            starts: if self.starts == "full" {
+                Starts::Full
+            } else {
+                Starts::Grid
+            },
         };
         let range = Range {
             start: self.range[0],
@@ -113,7 +121,10 @@ impl Parameters {
             ..self.clone()
         };
         let parameters = serde_json::to_string(&later).unwrap_or_default();
-        format!("{{\"version\":\"{}\",\"parameters\":{parameters}}}", env!("CARGO_PKG_VERSION"))
+        format!(
+            "{{\"version\":\"{}\",\"parameters\":{parameters}}}",
+            env!("CARGO_PKG_VERSION")
+        )
     }
 }
 
@@ -137,10 +148,12 @@ pub fn studies(parameters: &Parameters, folder: Option<&Path>) -> Result<Vec<Stu
             let checkpoint = checkpoints[index].as_ref();
             let found = match checkpoint.and_then(|checkpoint| checkpoint.get(lambda)) {
                 Some(sample) => Ok(sample.clone()),
-                None => sample(valence, lambda, &options).map_err(Error::from).and_then(|sample| {
-                    checkpoint.map_or(Ok(()), |checkpoint| checkpoint.add(&sample))?;
-                    Ok(sample)
-                }),
+                None => sample(valence, lambda, &options)
+                    .map_err(Error::from)
+                    .and_then(|sample| {
+                        checkpoint.map_or(Ok(()), |checkpoint| checkpoint.add(&sample))?;
+                        Ok(sample)
+                    }),
             };
             bar.inc(1);
             found

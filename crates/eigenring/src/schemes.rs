@@ -159,13 +159,20 @@ impl Tuner {
 
     fn remembered(&self, key: &str, tune: impl FnOnce() -> Result<Tuned, Error>) -> Result<Tuned, Error> {
         if let Some(tuned) = self.cache.get(key) {
-            note(&format!("{key} is not tabulated: its stencil was tuned on an earlier run"));
+            note(&format!(
+                "{key} is not tabulated: its stencil was tuned on an earlier run"
+            ));
             return Ok(tuned);
         }
         let tuned = tune()?;
         let kept = self.cache.put(key, &tuned);
-        let place = kept.map_or("not kept: no cache folder".to_owned(), |path| format!("kept in {}", path.display()));
-        note(&format!("{key} is not tabulated: its stencil was tuned now, E = {} ({place})", tuned.total));
+        let place = kept.map_or("not kept: no cache folder".to_owned(), |path| {
+            format!("kept in {}", path.display())
+        });
+        note(&format!(
+            "{key} is not tabulated: its stencil was tuned now, E = {} ({place})",
+            tuned.total
+        ));
         Ok(tuned)
     }
 }
@@ -280,7 +287,11 @@ mod tests {
     fn weights_of_users_must_be_feasible() {
         assert!(Point::given(6, 0.55, None, 6.0, 0.25, 0.2).is_ok());
         let error = Point::given(6, 0.55, None, 6.0, 0.9, 0.1).unwrap_err();
-        assert!(error.line().contains("f1") && error.accepted().is_some(), "{}", error.line());
+        assert!(
+            error.line().contains("f1") && error.accepted().is_some(),
+            "{}",
+            error.line()
+        );
         assert!(Point::given(6, f64::NAN, None, 6.0, 0.25, 0.2).is_err());
         assert!(Point::given(6, 0.55, None, 6.0, f64::NAN, 0.2).is_err());
         // valence 4: f3 must be mu, and is set to it exactly

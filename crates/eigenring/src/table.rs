@@ -160,14 +160,24 @@ impl Table {
         };
         let widths: Vec<usize> = (0..self.columns.len()).map(width).collect();
         let left: Vec<bool> = (0..self.columns.len())
-            .map(|column| self.rows.iter().all(|row| matches!(row[column], Cell::Word(_) | Cell::Empty)))
+            .map(|column| {
+                self.rows
+                    .iter()
+                    .all(|row| matches!(row[column], Cell::Word(_) | Cell::Empty))
+            })
             .collect();
         let line = |cells: &[String]| {
             let padded: Vec<String> = cells
                 .iter()
                 .zip(&widths)
                 .zip(&left)
-                .map(|((cell, &width), &left)| if left { format!("{cell:<width$}") } else { format!("{cell:>width$}") })
+                .map(|((cell, &width), &left)| {
+                    if left {
+                        format!("{cell:<width$}")
+                    } else {
+                        format!("{cell:>width$}")
+                    }
+                })
                 .collect();
             format!("{}\n", padded.join("  ").trim_end())
         };
@@ -183,14 +193,22 @@ impl Table {
         let mut records = vec![self.columns.clone()];
         records.extend(self.rows.iter().map(|row| row.iter().map(Cell::for_programs).collect()));
         for record in records {
-            writer.write_record(&record).expect("all records have the same length, and memory does not fail");
+            writer
+                .write_record(&record)
+                .expect("all records have the same length, and memory does not fail");
         }
         let bytes = writer.into_inner().expect("memory does not fail");
         String::from_utf8(bytes).expect("text in gives text out")
     }
 
     fn latex(&self) -> String {
-        let escape = |text: &str| text.replace('\\', "\\textbackslash{}").replace('_', "\\_").replace('%', "\\%").replace('&', "\\&").replace('#', "\\#");
+        let escape = |text: &str| {
+            text.replace('\\', "\\textbackslash{}")
+                .replace('_', "\\_")
+                .replace('%', "\\%")
+                .replace('&', "\\&")
+                .replace('#', "\\#")
+        };
         let mut text = format!("\\begin{{tabular}}{{{}}}\n\\hline\n", "r".repeat(self.columns.len()));
         let mut line = |cells: Vec<String>| {
             text.push_str(&cells.join(" & "));
@@ -227,12 +245,20 @@ impl Record {
 
     /// The fields as a JSON object.
     pub fn json(&self) -> serde_json::Map<String, Value> {
-        self.fields.iter().map(|(name, cell)| (name.clone(), cell.json())).collect()
+        self.fields
+            .iter()
+            .map(|(name, cell)| (name.clone(), cell.json()))
+            .collect()
     }
 
     /// For people: names and values below each other.
     pub fn text(&self) -> String {
-        let width = self.fields.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
+        let width = self
+            .fields
+            .iter()
+            .map(|(name, _)| name.chars().count())
+            .max()
+            .unwrap_or(0);
         let line = |(name, cell): &(String, Cell)| format!("{name:<width$}  {}\n", cell.for_people());
         self.fields.iter().map(line).collect()
     }
@@ -276,7 +302,10 @@ mod tests {
 
     #[test]
     fn people_get_columns_and_short_numbers() {
-        assert_eq!(table().render(Format::Text), "name           x_1\na,b   0.3333333333\nc                -\n");
+        assert_eq!(
+            table().render(Format::Text),
+            "name           x_1\na,b   0.3333333333\nc                -\n"
+        );
         assert!(table().render(Format::Latex).contains("x\\_1"));
         for (number, text) in [
             (0.0, "0"),

@@ -63,7 +63,10 @@ impl<S: Scalar, const D: usize> Mul for Dual<S, D> {
 
 impl<S: Scalar, const D: usize> Div for Dual<S, D> {
     type Output = Self;
-    #[expect(clippy::suspicious_arithmetic_impl, reason = "the quotient rule subtracts and multiplies")]
+    #[expect(
+        clippy::suspicious_arithmetic_impl,
+        reason = "the quotient rule subtracts and multiplies"
+    )]
     fn div(self, other: Self) -> Self {
         let quotient = self.value / other.value;
         self.zip(other, quotient, |p, q| (p - quotient * q) / other.value)

@@ -236,7 +236,11 @@ impl LocalSystem {
             // the unknowns of points off the spokes carry a phase: turn the mode so that the value at the pivot is 1
             let at_pivot = net.mode(unknowns, rows[pivot])?;
             let turned = at_pivot.0.hypot(at_pivot.1) > PIVOT;
-            let (forth, back) = if turned { (reciprocal(at_pivot), at_pivot) } else { ((1.0, 0.0), (1.0, 0.0)) };
+            let (forth, back) = if turned {
+                (reciprocal(at_pivot), at_pivot)
+            } else {
+                ((1.0, 0.0), (1.0, 0.0))
+            };
             let value_at = |&site: &Site| Ok(times(net.mode(unknowns, site)?, forth));
             let weight_at = |&site: &Site| Ok(times(net.functional(coefficients, site)?, back));
             modes.push(Mode {

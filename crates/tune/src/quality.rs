@@ -57,7 +57,10 @@ impl Quality {
             let scale = plane_norm * plane_norm / norm(&maps.second_order[which]);
             let s = maps.mu[which] / p;
             let rho = (1.0 - p) / (1.0 - p * s);
-            let (c0, far) = (1.0 / (1.0 - p), p * (s - 1.0).powi(2) / ((1.0 - p * s * s) * (1.0 - p * s).powi(2)));
+            let (c0, far) = (
+                1.0 / (1.0 - p),
+                p * (s - 1.0).powi(2) / ((1.0 - p * s * s) * (1.0 - p * s).powi(2)),
+            );
             let mut value = 0.0;
             for component in 0..3 {
                 let h = |point: &Point| scale * point.graphs[which].hessian[component];
@@ -70,7 +73,11 @@ impl Quality {
             let gauss = points.iter().map(|point| scale * scale * point.graphs[which].gauss());
             MapQuality {
                 mu: maps.mu[which],
-                value: if p * s * s < 1.0 { value / (c0 * area) } else { f64::INFINITY },
+                value: if p * s * s < 1.0 {
+                    value / (c0 * area)
+                } else {
+                    f64::INFINITY
+                },
                 gauss_min: gauss.clone().fold(f64::INFINITY, f64::min),
                 gauss_max: gauss.fold(f64::NEG_INFINITY, f64::max),
             }
@@ -155,7 +162,8 @@ mod tests {
     fn agrees_with_the_objective_of_the_lambda_scheme() {
         for (valence, lambda) in [(3, 0.5), (4, 0.45), (5, 0.56), (6, 0.3), (9, 0.5), (12, 0.7)] {
             let plane = Relaxation::new(valence).unwrap().plane(lambda).unwrap();
-            let domain = Domain::new(plane, Bounds::Paper, 1e-3).unwrap_or(Domain::new(plane, Bounds::Paper, 0.0).unwrap());
+            let domain =
+                Domain::new(plane, Bounds::Paper, 1e-3).unwrap_or(Domain::new(plane, Bounds::Paper, 0.0).unwrap());
             let [f2, f3] = domain.starts(3)[1];
             let settings = Settings {
                 weighted: false,
@@ -166,7 +174,12 @@ mod tests {
             let quality = Quality::new(&scheme, 5).unwrap();
             let close = |a: f64, b: f64| (a - b).abs() <= 1e-6 * a.abs().max(b.abs()).max(1.0);
             for (ours, theirs) in quality.maps.iter().zip([parts.cup, parts.saddle_re, parts.saddle_im]) {
-                assert!(close(ours.value, theirs.value), "{valence} {lambda}: {} {}", ours.value, theirs.value);
+                assert!(
+                    close(ours.value, theirs.value),
+                    "{valence} {lambda}: {} {}",
+                    ours.value,
+                    theirs.value
+                );
                 assert!(close(ours.gauss_min, theirs.gauss_min) && close(ours.gauss_max, theirs.gauss_max));
             }
             assert!(close(quality.jacobian_min, parts.jacobian_min));
@@ -185,6 +198,9 @@ mod tests {
             assert!(quality.total().is_finite() && quality.jacobian_min > 0.0);
             assert_eq!(quality.sign_change(), 0.0, "valence {valence}");
         }
-        assert!(Quality::new(&doo_sabin(6).unwrap(), 5).is_err(), "its 1/4 resonates with the outer rings");
+        assert!(
+            Quality::new(&doo_sabin(6).unwrap(), 5).is_err(),
+            "its 1/4 resonates with the outer rings"
+        );
     }
 }

@@ -44,7 +44,11 @@ impl FromStr for SchemeList {
             let scheme = spec.parse()?;
             Ok((spec, scheme))
         };
-        split(text).into_iter().map(parse).collect::<Result<_, _>>().map(SchemeList)
+        split(text)
+            .into_iter()
+            .map(parse)
+            .collect::<Result<_, _>>()
+            .map(SchemeList)
     }
 }
 
@@ -55,7 +59,17 @@ impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         debug_assert!(!registry().is_empty());
         let mut table = Table::new([
-            "valence", "scheme", "lambda", "mu/lambda^2", "K_m", "E", "theta", "gap", "strict", "hull", "remark",
+            "valence",
+            "scheme",
+            "lambda",
+            "mu/lambda^2",
+            "K_m",
+            "E",
+            "theta",
+            "gap",
+            "strict",
+            "hull",
+            "remark",
         ]);
         for &valence in &self.valences.0 {
             for (name, scheme) in &self.schemes.0 {
@@ -83,7 +97,9 @@ impl Arguments {
                     comparable.map(|q| q.total()).filter(|e| e.is_finite()).into(),
                     quality.and_then(|q| q.theta).map(f64::to_degrees).into(),
                     lambda.zip(mu).map(|(lambda, mu)| 1.0 - mu / lambda).into(),
-                    mu.filter(|&mu| mu > 0.0).map(|mu| 1.0 - next.unwrap_or(0.0) / mu).into(),
+                    mu.filter(|&mu| mu > 0.0)
+                        .map(|mu| 1.0 - next.unwrap_or(0.0) / mu)
+                        .into(),
                     hull(&scheme).into(),
                     remark.into(),
                 ]);
@@ -100,6 +116,9 @@ const EQUAL: f64 = 1e-9;
 /// The smallest weight of a special stencil of the limit level.
 fn hull(scheme: &Scheme<f64>) -> Option<f64> {
     let passes = &scheme.limit().passes;
-    let weights = passes.iter().flat_map(|pass| pass.special.values()).flat_map(|stencil| stencil.terms());
+    let weights = passes
+        .iter()
+        .flat_map(|pass| pass.special.values())
+        .flat_map(|stencil| stencil.terms());
     weights.map(|&(_, weight)| weight).reduce(f64::min)
 }

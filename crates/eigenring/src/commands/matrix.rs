@@ -102,7 +102,12 @@ fn points(numbering: Numbering) -> Table {
     let mut table = Table::new(["index", "sector", "a", "b"]);
     for (index, Site { sector, x, y }) in numbering.sites().into_iter().enumerate() {
         // x, y >= 0 for canonical sites
-        table.push(vec![index.into(), sector.into(), (x as usize / 2).into(), (y as usize / 2).into()]);
+        table.push(vec![
+            index.into(),
+            sector.into(),
+            (x as usize / 2).into(),
+            (y as usize / 2).into(),
+        ]);
     }
     table
 }

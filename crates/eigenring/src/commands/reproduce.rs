@@ -74,9 +74,15 @@ impl Arguments {
             } else {
                 compare_json(&expected, &found, self.atol, self.rtol)
             };
-            let Comparison { compared, mut differences } = comparison;
+            let Comparison {
+                compared,
+                mut differences,
+            } = comparison;
             let verdict = if differences.is_empty() { "same" } else { "DIFFERENT" };
-            report.push_str(&format!("{verdict:9}  {name}: {compared} entries compared, {} differ\n", differences.len()));
+            report.push_str(&format!(
+                "{verdict:9}  {name}: {compared} entries compared, {} differ\n",
+                differences.len()
+            ));
             differences.sort_by(|a, b| b.excess.total_cmp(&a.excess));
             for difference in differences.iter().take(SHOWN) {
                 report.push_str(&format!(

@@ -23,7 +23,12 @@ use std::process::ExitCode;
 )]
 pub struct Arguments {
     /// The scheme: see 'eigenring --help'
-    #[arg(long, value_name = "SPEC", required_unless_present = "matrix", conflicts_with = "matrix")]
+    #[arg(
+        long,
+        value_name = "SPEC",
+        required_unless_present = "matrix",
+        conflicts_with = "matrix"
+    )]
     scheme: Option<SchemeArg>,
     /// A local matrix of your own (CSV without header), in the numbering that 'eigenring matrix' shows
     #[arg(long, value_name = "FILE")]
@@ -91,7 +96,14 @@ impl Arguments {
         let head = Record::default()
             .with("scheme", name)
             .with("valence", valence)
-            .with("lattice", if numbering.lattice == Lattice::Vertex { "vertex" } else { "face" })
+            .with(
+                "lattice",
+                if numbering.lattice == Lattice::Vertex {
+                    "vertex"
+                } else {
+                    "face"
+                },
+            )
             .with("rings", numbering.rings)
             .with("points", numbering.count())
             .with("subdominant", spectrum.subdominant().map(signed))
@@ -115,7 +127,12 @@ impl Arguments {
                 object.insert("limit_stencils".to_owned(), limits.json());
                 pretty(&Value::Object(object))
             }
-            Format::Text => format!("{}\n{}\n{}", head.text(), eigenvalues.render(Format::Text), limits.text()),
+            Format::Text => format!(
+                "{}\n{}\n{}",
+                head.text(),
+                eigenvalues.render(Format::Text),
+                limits.text()
+            ),
             format => eigenvalues.render(format),
         };
         files::emit(None, text.as_bytes())?;
@@ -140,7 +157,10 @@ impl Limits {
             (0, 0) => "V".to_owned(),
             (x, y) => format!("P_i({},{})", x / 2, y / 2),
         };
-        let lambda = spectrum.eigenvalues.iter().find(|e| e.fourier == Some(1) && e.value.1 == 0.0);
+        let lambda = spectrum
+            .eigenvalues
+            .iter()
+            .find(|e| e.fourier == Some(1) && e.value.1 == 0.0);
         let tangents = match lambda {
             Some(lambda) => system.limit_tangents(lambda.value.0),
             None => Err(eigenring_spectral::Error::NotSymmetric),
@@ -154,7 +174,10 @@ impl Limits {
                 .filter(|(_, site)| site.sector == 0)
                 .map(|(index, site)| (name(site), index))
                 .collect(),
-            all: sites.iter().map(|site| json!([site.sector, site.x / 2, site.y / 2])).collect(),
+            all: sites
+                .iter()
+                .map(|site| json!([site.sector, site.x / 2, site.y / 2]))
+                .collect(),
         }
     }
 
@@ -171,7 +194,9 @@ impl Limits {
     }
 
     fn text(&self) -> String {
-        let mut text = String::from("limit stencils (weights in sector 0; tangents dual to the natural configuration with E_0 = (1,0))\n");
+        let mut text = String::from(
+            "limit stencils (weights in sector 0; tangents dual to the natural configuration with E_0 = (1,0))\n",
+        );
         let mut table = Table::new(["point", "position", "tangent_x", "tangent_y"]);
         for (name, index) in &self.points {
             table.push(vec![
@@ -182,7 +207,10 @@ impl Limits {
             ]);
         }
         text.push_str(&table.render(Format::Text));
-        for error in [self.position.as_ref().err(), self.tangents.as_ref().err()].into_iter().flatten() {
+        for error in [self.position.as_ref().err(), self.tangents.as_ref().err()]
+            .into_iter()
+            .flatten()
+        {
             text.push_str(&format!("not defined: {error}\n"));
         }
         text

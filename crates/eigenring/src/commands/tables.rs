@@ -164,7 +164,17 @@ pub fn regenerate(parameters: &Parameters, out: &Path, format: Format) -> Result
 /// What people look at first.
 fn summary(studies: &[Study]) -> Table {
     let mut table = Table::new([
-        "N", "lambda_l", "lambda_C", "paper", "difference", "E", "f2", "f3", "active", "excess", "strictness",
+        "N",
+        "lambda_l",
+        "lambda_C",
+        "paper",
+        "difference",
+        "E",
+        "f2",
+        "f3",
+        "active",
+        "excess",
+        "strictness",
     ]);
     for study in studies {
         let best = study.global.optimum();

@@ -131,7 +131,7 @@ fn stencils_stay_feasible_along_all_lambda() {
         dense.extend(relaxation.kinks());
         dense.retain(|&lambda| (0.15..=0.9).contains(&lambda));
         let bounds = Feasible { valence, margin: 1e-6 };
-        let fit = fit_stencils(&knots, [true; 3], &samples, optimum, &dense, &bounds).unwrap();
+        let fit = fit_stencils(&knots, [true; 3], &samples, &[optimum], &dense, &bounds).unwrap();
         for f in [&fit.f2, &fit.f3] {
             assert!(f.kkt.worst() < 1e-12, "N = {valence}: {:?}", f.kkt);
         }

@@ -62,8 +62,8 @@ pub struct StencilFit {
 /// Fits f3 and f2.
 ///
 /// `kinks` says which of the triple knots b, c, d are kinks; at the others the splines are twice continuously
-/// differentiable. `optimum` = (lambda, f2, f3) is interpolated. Bounds are demanded at all samples, at all lambdas of
-/// `grid` and at the optimum. Between them they hold up to half the squared spacing times the curvature, so the bounds
+/// differentiable. The points `fixed` = (lambda, f2, f3) are interpolated. Bounds are demanded at all samples, at all lambdas of
+/// `grid` and at the fixed points. Between them they hold up to half the squared spacing times the curvature, so the bounds
 /// given here need a margin against those that are to hold everywhere.
 ///
 /// # Errors
@@ -72,21 +72,21 @@ pub fn fit_stencils<B: StencilBounds>(
     knots: &LambdaKnots,
     kinks: [bool; 3],
     samples: &[StencilSample],
-    optimum: (f64, f64, f64),
+    fixed: &[(f64, f64, f64)],
     grid: &[f64],
     bounds: &B,
 ) -> Result<StencilFit, FitError> {
     let space = knots.knots()?;
     let smooth = smooth(knots, kinks);
     let mut lambdas: Vec<f64> = samples.iter().map(|s| s.lambda).chain(grid.iter().copied()).collect();
-    lambdas.push(optimum.0);
+    lambdas.extend(fixed.iter().map(|point| point.0));
     lambdas.sort_by(f64::total_cmp);
     lambdas.dedup();
 
     let domains: Vec<B::Domain> = lambdas.iter().map(|&lambda| bounds.domain(lambda)).collect();
     let f3_bands: Vec<Band> = domains.iter().map(|domain| bounds.f3(domain)).collect();
 
-    let fit = |value: fn(&StencilSample) -> f64, at_optimum: f64, bands: &[Band]| {
+    let fit = |value: fn(&StencilSample) -> f64, fixed: &[(f64, f64)], bands: &[Band]| {
         let sample = |s: &StencilSample| Sample {
             lambda: s.lambda,
             value: value(s),
@@ -98,13 +98,14 @@ pub fn fit_stencils<B: StencilBounds>(
         FitProblem {
             knots: &space,
             samples: &samples,
-            interpolate: &[(optimum.0, at_optimum)],
+            interpolate: fixed,
             bounds: &bounds,
             smooth: &smooth,
         }
         .solve()
     };
-    let f3 = fit(|s| s.f3, optimum.2, &f3_bands)?;
+    let fixed_f3: Vec<(f64, f64)> = fixed.iter().map(|&(lambda, _, f3)| (lambda, f3)).collect();
+    let f3 = fit(|s| s.f3, &fixed_f3, &f3_bands)?;
     let mut f2_bands = Vec::with_capacity(lambdas.len());
     for ((&lambda, domain), band) in lambdas.iter().zip(&domains).zip(&f3_bands) {
         // NaN cannot occur: the first fit has refused lambdas outside of the knots
@@ -112,6 +113,7 @@ pub fn fit_stencils<B: StencilBounds>(
         // a bound that is met exactly may be missed by rounding
         f2_bands.push(bounds.f2(domain, value.max(band.lower).min(band.upper)));
     }
-    let f2 = fit(|s| s.f2, optimum.1, &f2_bands)?;
+    let fixed_f2: Vec<(f64, f64)> = fixed.iter().map(|&(lambda, f2, _)| (lambda, f2)).collect();
+    let f2 = fit(|s| s.f2, &fixed_f2, &f2_bands)?;
     Ok(StencilFit { knots: *knots, f2, f3 })
 }

@@ -3,6 +3,8 @@
 use crate::spline::{Band, StencilBounds};
 use crate::sweep::{BranchSample, Options};
 use eigenring_scheme::lambda::{Bounds, Domain, Relaxation};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 
 /// The admissible stencils of a valence, on the branch's side of a gap in f2.
 pub(super) struct Admissible<'a> {
@@ -11,9 +13,12 @@ pub(super) struct Admissible<'a> {
     margin: f64,
     phi: f64,
     samples: &'a [BranchSample],
+    /// Domains by the bits of lambda: the rounds of a fit ask for the same ones.
+    known: RefCell<BTreeMap<u64, Slice>>,
 }
 
 /// A domain and the branch's f2 near it; without domain where there is none.
+#[derive(Clone, Copy)]
 pub(super) struct Slice {
     domain: Option<Domain>,
     f2: f64,
@@ -27,7 +32,24 @@ impl<'a> Admissible<'a> {
             margin,
             phi: options.phi,
             samples,
+            known: RefCell::default(),
         }
+    }
+
+    /// The s rule of the valence.
+    pub(super) fn relaxation(&self) -> &Relaxation {
+        &self.relaxation
+    }
+
+    /// The smallest slack of all constraints at a stencil; at N = 4 f3 is mu whatever is given.
+    pub(super) fn slack(&self, lambda: f64, f2: f64, f3: f64) -> f64 {
+        let Ok(mut plane) = self.relaxation.plane(lambda) else {
+            return f64::NEG_INFINITY;
+        };
+        plane.phi = self.phi;
+        let f3 = if plane.valence == 4 { plane.mu() } else { f3 };
+        let slack = plane.slack(self.bounds, self.margin, f2, f3);
+        slack.into_iter().map(|(_, slack)| slack).fold(f64::INFINITY, f64::min)
     }
 
     /// The branch's f2 at lambda, interpolated between samples.
@@ -52,14 +74,21 @@ impl StencilBounds for Admissible<'_> {
     type Domain = Slice;
 
     fn domain(&self, lambda: f64) -> Slice {
+        if let Some(&slice) = self.known.borrow().get(&lambda.to_bits()) {
+            return slice;
+        }
         let plane = self.relaxation.plane(lambda).map(|mut plane| {
             plane.phi = self.phi;
             plane
         });
-        Slice {
-            domain: plane.and_then(|plane| Domain::new(plane, self.bounds, self.margin)).ok(),
+        let slice = Slice {
+            domain: plane
+                .and_then(|plane| Domain::new(plane, self.bounds, self.margin))
+                .ok(),
             f2: self.reference(lambda),
-        }
+        };
+        self.known.borrow_mut().insert(lambda.to_bits(), slice);
+        slice
     }
 
     fn f3(&self, slice: &Slice) -> Band {
@@ -78,7 +107,11 @@ impl StencilBounds for Admissible<'_> {
         let Some(domain) = &slice.domain else {
             return EMPTY;
         };
-        let f3 = if domain.plane().valence == 4 { domain.plane().mu() } else { f3 };
+        let f3 = if domain.plane().valence == 4 {
+            domain.plane().mu()
+        } else {
+            f3
+        };
         let distance = |interval: &Band| (interval.lower - slice.f2).max(slice.f2 - interval.upper);
         domain
             .f2_intervals(f3)

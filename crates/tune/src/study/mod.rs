@@ -12,10 +12,10 @@ pub use recommended::second_ring_convexity;
 
 use crate::global::{Global, global};
 use crate::objective::Objective;
-use crate::spline::{self, FitError, Slot, Source, StencilSample, fit_stencils};
+use crate::spline::{self, FitError, Slot, Source, StencilFit, StencilSample, fit_stencils};
 use crate::sweep::{self, BranchSample, Options, Range, Sample, branch};
 use admissible::Admissible;
-use eigenring_scheme::lambda::{Domain, Entry, LambdaKnots, PAPER_TABLE_1, PaperRow, Relaxation};
+use eigenring_scheme::lambda::{Entry, LambdaKnots, PAPER_TABLE_1, PaperRow, Relaxation};
 use serde::{Deserialize, Serialize};
 
 /// The paper's lambda for optimal convergence in analysis.
@@ -29,9 +29,19 @@ pub const LAMBDA_R1: f64 = 0.2;
 /// spline may pass between them.
 pub const SPLINE_MARGIN: f64 = 1e-6;
 
-/// Lambdas, besides the samples and the kinks of s, at which the splines' bounds are imposed. Every fourth of them is one of
-/// 2000 in equal steps; with steps four times as long splines passed bounds between them by 2e-6 mu.
-const DENSE: usize = 4 * 1999 + 1;
+/// Lambdas in equal steps, besides the samples and the kinks of s, at which the splines' bounds are imposed first. Between them
+/// a spline may pass a bound; see [`fit_feasible`].
+const DENSE: usize = 2000;
+
+/// The splines are checked on steps this many times shorter.
+const FINER: usize = 8;
+
+/// A bound missed by less than this is met: rounding of f2 and f3.
+const MET: f64 = 1e-12;
+
+/// Rounds of imposing bounds where they were missed; two to four are usual, as each shortens the steps there and the miss is
+/// quadratic in the step.
+const ROUNDS: usize = 12;
 
 /// Coefficients below this are zero: where a bound f3 >= 0 holds over an interval, the exact coefficients vanish, and the
 /// fit's are rounding errors.
@@ -143,10 +153,10 @@ pub struct Accuracy {
     pub excess_at: f64,
     /// Largest `E / E_sample - 1` over all samples with `E_sample` above [`TINY`].
     pub excess_overall: f64,
-    /// Smallest `1 - |lambda_6| / mu` over 16000 lambdas, the samples and the kinks of s.
+    /// Smallest `1 - |lambda_6| / mu` over 16000 lambdas in equal steps, the samples and the kinks of s.
     pub strictness: f64,
     /// Smallest slack of all constraints over the same lambdas, with the margin of [`SPLINE_MARGIN`]: negative only by
-    /// rounding, or where a bound bends between the lambdas at which it was imposed.
+    /// rounding.
     pub slack: f64,
     /// The lambda of the smallest slack.
     pub slack_at: f64,
@@ -213,8 +223,15 @@ impl Study {
         let (values, kinks, candidates) =
             choose(&labelled, range, &relaxation, interpolated, knots, valence).map_err(failed)?;
         let admissible = Admissible::new(relaxation, options, SPLINE_MARGIN, &samples);
-        let grid = dense(range, &relaxation, 0.0);
-        let fit = fit_stencils(&values, kinks, &labelled, interpolated, &grid, &admissible).map_err(failed)?;
+        // at the kink lambda_l the sample stands for both sides; at N = 3 mu is next to the outer rings' 1/8 there, and E rises by
+        // orders of magnitude within the distance that a least-squares spline leaves
+        let at_kink = labelled
+            .iter()
+            .filter(|sample| sample.lambda == lambda_l && sample.lambda != optimum.lambda);
+        let fixed: Vec<(f64, f64, f64)> = std::iter::once(interpolated)
+            .chain(at_kink.map(|sample| (sample.lambda, sample.f2, sample.f3)))
+            .collect();
+        let fit = fit_feasible(&values, kinks, &labelled, &fixed, range, &admissible).map_err(failed)?;
         let [f2, f3] = [&fit.f2, &fit.f3].map(|fit| SplineTable {
             coefficients: std::array::from_fn(|i| {
                 let coefficient = fit.spline.coefficients()[i];
@@ -287,7 +304,11 @@ impl Study {
             ("lambda_A", LAMBDA_A, column(|row| row.lambda_a_star)),
             ("lambda_l", self.lambda_l, column(|row| row.lambda_l)),
             ("lambda_M", LAMBDA_M, column(|row| row.lambda_m_star)),
-            ("lambda_CC", lambda_catmull_clark(self.valence), column(|row| row.lambda_cc)),
+            (
+                "lambda_CC",
+                lambda_catmull_clark(self.valence),
+                column(|row| row.lambda_cc),
+            ),
             ("lambda_d", knots.d, column(|row| row.lambda_d)),
             ("lambda_C", entry.lambda_optimal, column(|row| row.lambda_c_star)),
             ("lambda_r2", entry.lambda_r2, column(|row| row.lambda_r2)),
@@ -323,7 +344,11 @@ impl Study {
         for sample in &self.samples {
             let (f2, f3) = entry.weights(sample.lambda)?;
             let total = objective(self.valence, sample.lambda, options)?.value(f2, f3)?;
-            let excess = if sample.minimum.total > TINY { total / sample.minimum.total - 1.0 } else { 0.0 };
+            let excess = if sample.minimum.total > TINY {
+                total / sample.minimum.total - 1.0
+            } else {
+                0.0
+            };
             accuracy.excess_overall = accuracy.excess_overall.max(excess);
             if (entry.lambda_r1..=entry.lambda_r2).contains(&sample.lambda) {
                 accuracy.f2 = accuracy.f2.max((f2 - sample.minimum.f2).abs());
@@ -333,14 +358,15 @@ impl Study {
                 }
             }
         }
-        // both where the bounds were imposed and half-way between
-        let lambdas = dense(range, &relaxation, 0.0).into_iter().chain(dense(range, &relaxation, 0.5));
-        for lambda in lambdas.chain(self.samples.iter().map(|sample| sample.lambda)) {
+        let lambdas = steps(range, &relaxation, FINER * (DENSE - 1));
+        for lambda in lambdas
+            .into_iter()
+            .chain(self.samples.iter().map(|sample| sample.lambda))
+        {
             let (f2, f3) = entry.weights(lambda)?;
             let mut plane = relaxation.plane(lambda)?;
             plane.phi = options.phi;
-            let domain = Domain::new(plane, options.bounds, SPLINE_MARGIN)?;
-            for (constraint, slack) in domain.slack(f2, f3) {
+            for (constraint, slack) in plane.slack(options.bounds, SPLINE_MARGIN, f2, f3) {
                 // the slack of an eigenvalue bound is (1 - margin) mu - |eigenvalue|
                 if constraint.is_eigenvalue_bound() {
                     accuracy.strictness = accuracy.strictness.min(slack / plane.mu() + SPLINE_MARGIN);
@@ -360,17 +386,58 @@ fn objective(valence: usize, lambda: f64, options: &Options) -> Result<Objective
     Ok(Objective::new(plane, options.settings)?)
 }
 
-/// `DENSE` lambdas over the range, moved by a fraction of their spacing, and the kinks of s.
-fn dense(range: &Range, relaxation: &Relaxation, shift: f64) -> Vec<f64> {
-    let step = (range.end - range.start) / (DENSE - 1) as f64;
-    let mut lambdas: Vec<f64> = (0..DENSE)
-        .map(|i| (range.start + (i as f64 + shift) * step).min(range.end))
-        .chain(relaxation.kinks())
-        .filter(|lambda| (range.start..=range.end).contains(lambda))
+/// The range in equal steps, and the kinks of s in it.
+fn steps(range: &Range, relaxation: &Relaxation, count: usize) -> Vec<f64> {
+    let at = |i: usize| {
+        if i == count {
+            range.end
+        } else {
+            range.start + (range.end - range.start) * i as f64 / count as f64
+        }
+    };
+    let inside = |lambda: &f64| (range.start..=range.end).contains(lambda);
+    let mut lambdas: Vec<f64> = (0..=count)
+        .map(at)
+        .chain(relaxation.kinks().into_iter().filter(inside))
         .collect();
     lambdas.sort_by(f64::total_cmp);
     lambdas.dedup();
     lambdas
+}
+
+/// Fits with bounds at every lambda of a fine grid, though only those at a coarser one and at those that were missed are
+/// imposed: the exchange method of semi-infinite programming.
+fn fit_feasible(
+    knots: &LambdaKnots,
+    kinks: [bool; 3],
+    samples: &[StencilSample],
+    fixed: &[(f64, f64, f64)],
+    range: &Range,
+    admissible: &Admissible<'_>,
+) -> Result<StencilFit, FitError> {
+    let fine = steps(range, admissible.relaxation(), FINER * (DENSE - 1));
+    let mut imposed = steps(range, admissible.relaxation(), DENSE - 1);
+    for _ in 1..ROUNDS {
+        let fit = fit_stencils(knots, kinks, samples, fixed, &imposed, admissible)?;
+        let at = |fit: &spline::Fit, lambda| fit.spline.value(lambda).unwrap_or(f64::NAN);
+        let slack = |&lambda: &f64| admissible.slack(lambda, at(&fit.f2, lambda), at(&fit.f3, lambda));
+        let slacks: Vec<f64> = fine.iter().map(slack).collect();
+        // the worst lambda of each run of missing ones, and every other one, to close gaps quickly
+        let worst = |i: usize| {
+            let next = (i + 1).min(slacks.len() - 1);
+            slacks[i] <= slacks[i.saturating_sub(1)] && slacks[i] <= slacks[next]
+        };
+        let added: Vec<f64> = (0..fine.len())
+            .filter(|&i| slacks[i] < -MET && (worst(i) || i % 2 == 0) && !imposed.contains(&fine[i]))
+            .map(|i| fine[i])
+            .collect();
+        if added.is_empty() {
+            return Ok(fit);
+        }
+        imposed.extend(added);
+        imposed.sort_by(f64::total_cmp);
+    }
+    fit_stencils(knots, kinks, samples, fixed, &fine, admissible)
 }
 
 /// The samples with their sets of active bounds as labels: one number for each set, in order of appearance.

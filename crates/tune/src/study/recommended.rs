@@ -25,7 +25,13 @@ pub(super) fn end(entry: &Entry, end: f64) -> Result<f64, Error> {
         Ok(second_ring_convexity(&scheme, lambda)?)
     };
     let start = entry.lambda_optimal;
-    let at = |i: usize| if i == STEPS { end } else { start + (end - start) * i as f64 / STEPS as f64 };
+    let at = |i: usize| {
+        if i == STEPS {
+            end
+        } else {
+            start + (end - start) * i as f64 / STEPS as f64
+        }
+    };
     for i in 1..=STEPS {
         if convexity(at(i))? > 0.0 {
             continue;

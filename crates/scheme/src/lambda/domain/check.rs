@@ -2,6 +2,7 @@
 
 use super::{Bounds, Constraint, Domain};
 use crate::Error;
+use crate::lambda::Plane;
 use std::fmt;
 
 /// A point that was refused: which bound it misses, by how much, and what would have been accepted.
@@ -54,12 +55,12 @@ impl fmt::Display for InfeasiblePoint {
 
 impl std::error::Error for InfeasiblePoint {}
 
-impl Domain {
+impl Plane<f64> {
     /// Every constraint of this valence with its slack at (f2, f3): negative where violated, and minus infinity where the
     /// stencil is not defined. Units are those of the weight, of the eigenvalue, or for theta of f2:
-    /// `2 f2 cos(pi/N) - (lambda-f3)`. Computed from the stencil and the spectrum, not from the curves.
-    pub fn slack(&self, f2: f64, f3: f64) -> Vec<(Constraint, f64)> {
-        let (plane, n, m) = (&self.plane, self.plane.valence, self.modulus_bound());
+    /// `2 f2 cos(pi/N) - (lambda-f3)`. Computed from the stencil and the spectrum, not from the curves of [`Domain`].
+    pub fn slack(&self, bounds: Bounds, margin: f64, f2: f64, f3: f64) -> Vec<(Constraint, f64)> {
+        let (plane, n, m) = (self, self.valence, (1.0 - margin) * self.mu());
         let w = plane.stencil(f2, f3).weights;
         let (g3, h) = plane.g3_and_h(f3);
         let z0 = self.z0(f2, f3);
@@ -89,7 +90,7 @@ impl Domain {
             let second = |ev: f64| (f3 * g3 / ev).abs();
             let radius = |k: usize| spectral_radius(g3 + f3 + h * (1.0 + plane.cosine(k as i64)), f3 * g3);
             let exact = m - if n == 5 { second(plane.mu()) } else { radius(n / 2) };
-            let last = match self.bounds {
+            let last = match bounds {
                 Bounds::Sharp => exact,
                 Bounds::Paper => exact.min(m + g3),
             };
@@ -104,6 +105,20 @@ impl Domain {
             }
         }
         slack
+    }
+
+    /// The last eigenvalue of block 0, beside 1 and mu; like the stencil not a number where beta's denominator and `h` vanish.
+    pub fn z0(&self, f2: f64, f3: f64) -> f64 {
+        let (g3, h) = self.g3_and_h(f3);
+        let beta = self.stencil(f2, f3).weights.beta;
+        g3 + 2.0 * h + f3 - (1.0 + self.phi) * beta - self.mu()
+    }
+}
+
+impl Domain {
+    /// Every constraint of this valence with its slack at (f2, f3): [`Plane::slack`] with this domain's bounds and margin.
+    pub fn slack(&self, f2: f64, f3: f64) -> Vec<(Constraint, f64)> {
+        self.plane.slack(self.bounds, self.margin, f2, f3)
     }
 
     /// Whether no constraint is violated.
@@ -165,12 +180,9 @@ impl Domain {
         (!nearest.is_nan()).then_some([nearest, f3])
     }
 
-    /// The last eigenvalue of block 0, beside 1 and mu; like the stencil not a number where beta's denominator and `h` vanish.
+    /// The last eigenvalue of block 0: [`Plane::z0`].
     pub fn z0(&self, f2: f64, f3: f64) -> f64 {
-        let plane = &self.plane;
-        let (g3, h) = plane.g3_and_h(f3);
-        let beta = plane.stencil(f2, f3).weights.beta;
-        g3 + 2.0 * h + f3 - (1.0 + plane.phi) * beta - plane.mu()
+        self.plane.z0(f2, f3)
     }
 
     /// The angle of the natural configuration at F, in the triangle V E F.
