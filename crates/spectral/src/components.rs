@@ -74,6 +74,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        // Warshall's closure is plainest with indices
+        #[allow(clippy::needless_range_loop)]
         #[test]
         fn components_are_the_classes_of_mutual_reachability(edges in proptest::collection::vec(any::<bool>(), 49)) {
             let size = 7;

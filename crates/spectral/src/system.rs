@@ -85,7 +85,7 @@ impl LocalSystem {
             return Err(eigenring_scheme::Error::Valence { valence }.into());
         }
         let (rows, columns) = (matrix.rows(), matrix.columns());
-        let candidates = [Lattice::Vertex, Lattice::Face].into_iter().flat_map(|lattice| {
+        let mut candidates = [Lattice::Vertex, Lattice::Face].into_iter().flat_map(|lattice| {
             let numbering = move |rings| Numbering {
                 fan: Fan::Closed(valence),
                 lattice,
@@ -94,7 +94,7 @@ impl LocalSystem {
             (0..).map(numbering).take_while(move |n| n.count() <= rows)
         });
         // the centre alone is no net
-        let fits = candidates.filter(|n| n.count() == rows && n.sector_points() > 0).next();
+        let fits = candidates.find(|n| n.count() == rows && n.sector_points() > 0);
         let numbering = match fits {
             Some(numbering) if rows == columns => numbering,
             _ => return Err(Error::MatrixSize { rows, columns, valence }),
