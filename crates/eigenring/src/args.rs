@@ -1,6 +1,5 @@
 //! Arguments that several commands share.
 
-use crate::error::Error;
 use crate::table::Format;
 use clap::Args;
 use eigenring_tune::objective::{Normalisation, Settings};
@@ -11,16 +10,29 @@ use std::str::FromStr;
 /// practice.
 pub const MAX_VALENCE: usize = 1000;
 
-/// Refuses valences out of range.
-pub fn check_valence(valence: usize) -> Result<usize, Error> {
-    if (3..=MAX_VALENCE).contains(&valence) {
-        return Ok(valence);
-    }
-    Err(Error::Range {
-        what: "valence",
-        given: valence.to_string(),
-        accepted: format!("3 to {MAX_VALENCE}"),
-    })
+/// The default margin, that of [`Options`](eigenring_tune::sweep::Options), as it is printed in help texts.
+pub const MARGIN: &str = "2e-6";
+
+/// Reads a valence.
+pub fn valence(text: &str) -> Result<usize, String> {
+    let valence = text.parse().ok().filter(|valence| (3..=MAX_VALENCE).contains(valence));
+    valence.ok_or_else(|| format!("accepted is 3 to {MAX_VALENCE}"))
+}
+
+/// Reads a number. Its range, which may depend on other arguments, is for the command to check, and so is NaN.
+pub fn number(text: &str) -> Result<f64, String> {
+    text.parse().map_err(|_| "accepted is a number such as 0.55".to_owned())
+}
+
+/// Reads a number that has no other range.
+pub fn finite(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| number.is_finite());
+    number.ok_or_else(|| "accepted is a finite number such as 0.25".to_owned())
+}
+
+/// Reads a count, whose range is for the command to check.
+pub fn count(text: &str) -> Result<usize, String> {
+    text.parse().map_err(|_| "accepted is a whole number".to_owned())
 }
 
 /// The output format.
@@ -39,11 +51,7 @@ impl FromStr for Valences {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let refuse = || {
-            format!(
-                "'{text}' is no list of valences: accepted are numbers from 3 to {MAX_VALENCE} and ranges, such as 3..20 or 3,5,8..10"
-            )
-        };
+        let refuse = || format!("accepted are numbers from 3 to {MAX_VALENCE} and ranges, such as 3..20 or 3,5,8..10");
         let mut valences = Vec::new();
         for part in text.split(',') {
             let number = |text: &str| text.trim().parse::<usize>().map_err(|_| refuse());
@@ -51,7 +59,7 @@ impl FromStr for Valences {
                 Some((first, last)) => number(first)?..=number(last.trim_start_matches('='))?,
                 None => number(part)?..=number(part)?,
             };
-            if range.is_empty() || check_valence(*range.start()).is_err() || check_valence(*range.end()).is_err() {
+            if range.is_empty() || *range.start() < 3 || *range.end() > MAX_VALENCE {
                 return Err(refuse());
             }
             valences.extend(range);
@@ -69,16 +77,16 @@ pub struct ObjectiveArgs {
     #[arg(long)]
     pub unweighted: bool,
     /// Width of the weight's transition, relative to the ideal Gauss curvature
-    #[arg(long, default_value_t = 0.2, value_name = "X")]
+    #[arg(long, default_value_t = 0.2, value_name = "X", value_parser = number, allow_negative_numbers = true)]
     pub epsilon: f64,
     /// Square root of the largest weight
-    #[arg(long, default_value_t = 5.0, value_name = "X")]
+    #[arg(long, default_value_t = 5.0, value_name = "X", value_parser = number, allow_negative_numbers = true)]
     pub weight: f64,
     /// Gauss points per patch and direction
-    #[arg(long, default_value_t = 5, value_name = "COUNT")]
+    #[arg(long, default_value_t = 5, value_name = "COUNT", value_parser = count, allow_negative_numbers = true)]
     pub quadrature: usize,
     /// Ratio alpha/beta of the vertex stencil's total weights
-    #[arg(long, default_value_t = 6.0, value_name = "X")]
+    #[arg(long, default_value_t = 6.0, value_name = "X", value_parser = number, allow_negative_numbers = true)]
     pub phi: f64,
     /// Scale of the eigenvectors: unit norm over five rings, or unit first edge neighbour
     #[arg(long, value_enum, default_value_t)]
@@ -114,6 +122,11 @@ impl ObjectiveArgs {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_default_margin_is_that_of_the_library() {
+        assert_eq!(number(MARGIN), Ok(eigenring_tune::sweep::Options::default().margin));
+    }
 
     #[test]
     fn lists_of_valences() {

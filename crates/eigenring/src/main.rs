@@ -7,6 +7,7 @@
 mod args;
 mod cache;
 mod checkpoint;
+mod command_line;
 mod commands;
 mod compare;
 mod error;
@@ -31,11 +32,11 @@ fn main() -> ExitCode {
     let result = match commands::Cli::try_parse_from(&arguments) {
         Ok(cli) => cli.run(),
         Err(error) if !error.use_stderr() => {
-            // --help and --version
-            print!("{}", error.render().ansi());
+            // --help and --version, in colour only on a terminal; a reader that has gone away is no error
+            let _ = error.print();
             return ExitCode::SUCCESS;
         }
-        Err(error) => Err(Error::CommandLine(one_line(&error))),
+        Err(error) => Err(Error::CommandLine(command_line::explain(&error, &arguments))),
     };
     match result {
         Ok(verdict) => verdict,
@@ -48,17 +49,4 @@ fn main() -> ExitCode {
             ExitCode::from(2)
         }
     }
-}
-
-/// The parser's message without its usage section, on one line.
-fn one_line(error: &clap::Error) -> String {
-    if error.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "no command is given: accepted are the commands that 'eigenring --help' lists".to_owned();
-    }
-    let text = error.render().to_string();
-    let message = text.split("\n\nUsage:").next().unwrap_or(&text);
-    let message = message.split("\n\nFor more information").next().unwrap_or(message);
-    let line = message.split_whitespace().collect::<Vec<_>>().join(" ");
-    let line = line.trim_start_matches("error: ").to_owned();
-    line.replace("[possible values:", "[accepted are")
 }

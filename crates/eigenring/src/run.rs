@@ -3,12 +3,14 @@
 use crate::checkpoint::Checkpoint;
 use crate::error::Error;
 use crate::progress;
-use eigenring_scheme::lambda::Bounds;
+use crate::schemes::check_rule;
+use crate::table::short;
+use eigenring_scheme::lambda::{Bounds, Relaxation};
 use eigenring_tune::global::{Global, global};
 use eigenring_tune::objective::{Normalisation, Settings};
 use eigenring_tune::search::Starts;
 use eigenring_tune::study::{Knots, Study};
-use eigenring_tune::sweep::{Options, Range, Sample, sample};
+use eigenring_tune::sweep::{Options, Problem, Range, Sample, sample};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -128,6 +130,32 @@ impl Parameters {
     }
 }
 
+/// Refuses parameters with which no study can be made, before anything is written.
+pub fn check(parameters: &Parameters) -> Result<(), Error> {
+    let (options, range) = parameters.options();
+    for &valence in &parameters.valences {
+        // the knots of the splines lie on both sides of lambda_l
+        let lambda_l = |valence| Relaxation::new(valence).map(|rule| rule.lambda_l());
+        if lambda_l(valence)? >= range.end {
+            let inside = |&valence: &usize| lambda_l(valence).is_ok_and(|lambda| lambda < range.end);
+            // lambda_l grows with the valence
+            let last = (3..valence).rfind(inside).unwrap_or(3);
+            return Err(Error::Range {
+                what: "valence",
+                given: format!(
+                    "{valence}, whose curvature is bounded only from lambda = {} on, beyond the tables' {},",
+                    short(lambda_l(valence)?),
+                    range.end
+                ),
+                accepted: format!("3 to {last} for tables (tune and stencil take more)"),
+            });
+        }
+        // the margin and the constants of the objective are refused here
+        Problem::new(valence, range.start, &options)?;
+    }
+    Ok(())
+}
+
 /// Computes the studies of all valences, in their order. With a folder, finished samples are kept there and taken from there.
 pub fn studies(parameters: &Parameters, folder: Option<&Path>) -> Result<Vec<Study>, Error> {
     let (options, range) = parameters.options();
@@ -179,6 +207,9 @@ pub fn studies(parameters: &Parameters, folder: Option<&Path>) -> Result<Vec<Stu
 /// The minima over lambda of one valence, and the samples between which they were found.
 pub fn minima_over_lambda(valence: usize, options: &Options) -> Result<(Global, Vec<Sample>), Error> {
     let lambdas = Range::default().lambdas(valence)?;
+    for &lambda in &lambdas {
+        check_rule(valence, lambda)?;
+    }
     let bar = progress::bar("tuning", lambdas.len());
     let samples = lambdas
         .into_par_iter()

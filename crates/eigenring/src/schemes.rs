@@ -7,6 +7,7 @@ use crate::cache::Cache;
 use crate::error::Error;
 use crate::progress::note;
 use crate::run::minima_over_lambda;
+use crate::table::short;
 use eigenring_scheme::lambda::{Bounds, Domain, LambdaTable, Plane, Relaxation};
 use eigenring_scheme::user::UserScheme;
 use eigenring_scheme::{Scheme, Spec};
@@ -53,11 +54,29 @@ impl Source {
     }
 }
 
+/// Refuses lambdas where the rule of a large valence asks for a mu that is not below lambda.
+pub fn check_rule(valence: usize, lambda: f64) -> Result<(), Error> {
+    let s = Relaxation::new(valence)?.s(lambda)?;
+    if s * lambda < 1.0 {
+        return Ok(());
+    }
+    Err(Error::Usage {
+        message: format!(
+            "at N = {valence}, lambda = {lambda} the rule for s gives {s}, which is not below 1/lambda = {}",
+            1.0 / lambda
+        ),
+        accepted: "a smaller valence".to_owned(),
+    })
+}
+
 /// The plane at lambda with the given s, or the one of the rule.
 pub fn plane(valence: usize, lambda: f64, s: Option<f64>, phi: f64) -> Result<Plane<f64>, Error> {
     let mut plane = match s {
         Some(s) => Plane::new(valence, lambda, s)?,
-        None => Relaxation::new(valence)?.plane(lambda)?,
+        None => {
+            check_rule(valence, lambda)?;
+            Relaxation::new(valence)?.plane(lambda)?
+        }
     };
     plane.phi = phi;
     Ok(plane)
@@ -113,7 +132,8 @@ impl Tuner {
             });
         }
         let key = format!("N{valence}-lambda{lambda}-s{}", plane.s);
-        let tuned = self.remembered(&key, || {
+        let given = s.map_or(String::new(), |s| format!(", s = {s}"));
+        let tuned = self.remembered(&key, &format!("N = {valence}, lambda = {lambda}{given}"), || {
             let options = Options::default();
             let found = Problem::on_plane(plane, &options)?.search(options.starts)?;
             let best = found.lowest();
@@ -138,7 +158,8 @@ impl Tuner {
         if let Ok(entry) = LambdaTable::embedded()?.entry(valence) {
             return self.point(valence, entry.lambda_optimal, None);
         }
-        let tuned = self.remembered(&format!("N{valence}-optimal"), || {
+        let key = format!("N{valence}-optimal");
+        let tuned = self.remembered(&key, &format!("the optimal stencil of N = {valence}"), || {
             let (found, _) = minima_over_lambda(valence, &Options::default())?;
             let best = found.optimum();
             Ok(Tuned {
@@ -157,10 +178,11 @@ impl Tuner {
         })
     }
 
-    fn remembered(&self, key: &str, tune: impl FnOnce() -> Result<Tuned, Error>) -> Result<Tuned, Error> {
-        if let Some(tuned) = self.cache.get(key) {
+    fn remembered(&self, key: &str, what: &str, tune: impl FnOnce() -> Result<Tuned, Error>) -> Result<Tuned, Error> {
+        if let Some(tuned) = self.cache.get::<Tuned>(key) {
             note(&format!(
-                "{key} is not tabulated: its stencil was tuned on an earlier run"
+                "{what} is not tabulated; remembered from an earlier run, E = {}",
+                short(tuned.total)
             ));
             return Ok(tuned);
         }
@@ -170,8 +192,8 @@ impl Tuner {
             format!("kept in {}", path.display())
         });
         note(&format!(
-            "{key} is not tabulated: its stencil was tuned now, E = {} ({place})",
-            tuned.total
+            "{what} is not tabulated; tuned now, E = {} ({place})",
+            short(tuned.total)
         ));
         Ok(tuned)
     }

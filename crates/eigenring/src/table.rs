@@ -148,6 +148,12 @@ impl Table {
         Value::Array(self.rows.iter().map(object).collect())
     }
 
+    /// Whether a column holds words, which are aligned on the left.
+    fn is_words(&self, column: usize) -> bool {
+        let word = |row: &Vec<Cell>| matches!(row[column], Cell::Word(_));
+        self.rows.iter().any(word) && self.rows.iter().all(|row| word(row) || row[column] == Cell::Empty)
+    }
+
     fn text(&self) -> String {
         let cells: Vec<Vec<String>> = self
             .rows
@@ -159,13 +165,7 @@ impl Table {
             longest.max(self.columns[column].chars().count())
         };
         let widths: Vec<usize> = (0..self.columns.len()).map(width).collect();
-        let left: Vec<bool> = (0..self.columns.len())
-            .map(|column| {
-                self.rows
-                    .iter()
-                    .all(|row| matches!(row[column], Cell::Word(_) | Cell::Empty))
-            })
-            .collect();
+        let left: Vec<bool> = (0..self.columns.len()).map(|column| self.is_words(column)).collect();
         let line = |cells: &[String]| {
             let padded: Vec<String> = cells
                 .iter()
@@ -202,14 +202,20 @@ impl Table {
     }
 
     fn latex(&self) -> String {
-        let escape = |text: &str| {
-            text.replace('\\', "\\textbackslash{}")
-                .replace('_', "\\_")
-                .replace('%', "\\%")
-                .replace('&', "\\&")
-                .replace('#', "\\#")
+        let escape = |text: &str| -> String {
+            let character = |character: char| match character {
+                '\\' => "\\textbackslash{}".to_owned(),
+                '^' => "\\textasciicircum{}".to_owned(),
+                '~' => "\\textasciitilde{}".to_owned(),
+                '_' | '%' | '&' | '#' | '$' | '{' | '}' => format!("\\{character}"),
+                other => other.to_string(),
+            };
+            text.chars().map(character).collect()
         };
-        let mut text = format!("\\begin{{tabular}}{{{}}}\n\\hline\n", "r".repeat(self.columns.len()));
+        let alignment: String = (0..self.columns.len())
+            .map(|column| if self.is_words(column) { 'l' } else { 'r' })
+            .collect();
+        let mut text = format!("\\begin{{tabular}}{{{alignment}}}\n\\hline\n");
         let mut line = |cells: Vec<String>| {
             text.push_str(&cells.join(" & "));
             text.push_str(" \\\\\n");
@@ -306,7 +312,15 @@ mod tests {
             table().render(Format::Text),
             "name           x_1\na,b   0.3333333333\nc                -\n"
         );
-        assert!(table().render(Format::Latex).contains("x\\_1"));
+        assert_eq!(
+            table().render(Format::Latex),
+            "\\begin{tabular}{lr}\n\\hline\nname & x\\_1 \\\\\n\\hline\na,b & 0.3333333333 \\\\\nc & - \\\\\n\\hline\n\\end{tabular}\n"
+        );
+        assert!(
+            Table::new(["mu/lambda^2"])
+                .render(Format::Latex)
+                .contains("lambda\\textasciicircum{}2")
+        );
         for (number, text) in [
             (0.0, "0"),
             (-0.0, "0"),

@@ -27,7 +27,7 @@ pub struct Arguments {
     #[arg(long, value_name = "SPEC,SPEC,...")]
     schemes: SchemeList,
     /// Valences: numbers and ranges
-    #[arg(long, value_name = "LIST", default_value = "3..12")]
+    #[arg(long, value_name = "LIST", default_value = "3..12", allow_hyphen_values = true)]
     valences: Valences,
     #[command(flatten)]
     output: Output,

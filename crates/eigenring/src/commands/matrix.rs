@@ -1,7 +1,7 @@
 //! `eigenring matrix`: the local matrix in the formats of other programs, with its numbering.
 
 use super::spectrum::check_rings;
-use crate::args::check_valence;
+use crate::args;
 use crate::error::Error;
 use crate::files;
 use crate::schemes::SchemeArg;
@@ -27,13 +27,13 @@ pub struct Arguments {
     #[arg(long, value_name = "SPEC")]
     scheme: SchemeArg,
     /// Valence
-    #[arg(short = 'N', long, value_name = "N")]
+    #[arg(short = 'N', long, value_name = "N", value_parser = args::valence, allow_negative_numbers = true)]
     valence: usize,
     /// Rings of control points; by default the smallest closed set
-    #[arg(long, value_name = "R")]
+    #[arg(long, value_name = "R", value_parser = args::count, allow_negative_numbers = true)]
     rings: Option<usize>,
     /// Level of refinement, 0 for the first; by default the limit level
-    #[arg(long, value_name = "LEVEL")]
+    #[arg(long, value_name = "LEVEL", value_parser = args::count, allow_negative_numbers = true)]
     level: Option<usize>,
     /// Matrix Market, NumPy, comma-separated values, or JSON
     #[arg(long, value_enum, default_value_t)]
@@ -60,7 +60,7 @@ const MAX_ENTRIES: usize = 100_000_000;
 
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
-        let valence = check_valence(self.valence)?;
+        let valence = self.valence;
         let scheme = self.scheme.scheme(valence)?;
         let rings = check_rings(self.rings, scheme.closed_rings()?)?;
         let numbering = scheme.numbering(rings);

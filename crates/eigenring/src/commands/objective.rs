@@ -1,6 +1,6 @@
 //! `eigenring objective`: the tuning objective at one stencil.
 
-use crate::args::{ObjectiveArgs, Output, check_valence};
+use crate::args::{self, ObjectiveArgs, Output};
 use crate::error::Error;
 use crate::files;
 use crate::schemes::Point;
@@ -18,19 +18,19 @@ use std::process::ExitCode;
 #[command(after_help = "Example:\n  eigenring objective -N 6 --lambda 0.55 --f2 0.25 --f3 0.2")]
 pub struct Arguments {
     /// Valence
-    #[arg(short = 'N', long, value_name = "N")]
+    #[arg(short = 'N', long, value_name = "N", value_parser = args::valence, allow_negative_numbers = true)]
     valence: usize,
     /// Subdominant eigenvalue, 1/8 < lambda < 1
-    #[arg(long, value_name = "L", allow_negative_numbers = true)]
+    #[arg(long, value_name = "L", value_parser = args::number, allow_negative_numbers = true)]
     lambda: f64,
     /// Weight of each edge neighbour in the face stencil
-    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    #[arg(long, value_name = "X", value_parser = args::finite, allow_negative_numbers = true)]
     f2: f64,
     /// Weight of the opposite corner in the face stencil
-    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    #[arg(long, value_name = "X", value_parser = args::finite, allow_negative_numbers = true)]
     f3: f64,
     /// Relaxation mu/lambda^2; by default the smallest feasible one
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = args::number, allow_negative_numbers = true)]
     s: Option<f64>,
     #[command(flatten)]
     objective: ObjectiveArgs,
@@ -40,7 +40,7 @@ pub struct Arguments {
 
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
-        let valence = check_valence(self.valence)?;
+        let valence = self.valence;
         let point = Point::given(valence, self.lambda, self.s, self.objective.phi, self.f2, self.f3)?;
         let objective = Objective::new(point.plane, self.objective.settings())?;
         let parts = objective.parts(point.f2, point.f3)?;

@@ -1,6 +1,7 @@
 //! `eigenring reproduce`: rebuild the stored results, or check that they can be rebuilt.
 
 use super::tables::regenerate;
+use crate::args;
 use crate::compare::{Comparison, compare_csv, compare_json};
 use crate::error::Error;
 use crate::files;
@@ -25,10 +26,10 @@ pub struct Arguments {
     #[arg(long, value_name = "FOLDER", default_value = "results")]
     out: PathBuf,
     /// Absolute tolerance of a number
-    #[arg(long, value_name = "X", default_value_t = 1e-9)]
+    #[arg(long, value_name = "X", default_value = "1e-9", value_parser = args::number, allow_negative_numbers = true)]
     atol: f64,
     /// Relative tolerance of a number
-    #[arg(long, value_name = "X", default_value_t = 1e-6)]
+    #[arg(long, value_name = "X", default_value = "1e-6", value_parser = args::number, allow_negative_numbers = true)]
     rtol: f64,
 }
 

@@ -1,12 +1,12 @@
 //! `eigenring spectrum`: eigenvalues, Fourier indices and limit stencils of any scheme or matrix.
 
-use crate::args::{Output, check_valence};
+use crate::args::{self, Output};
 use crate::error::Error;
 use crate::files;
 use crate::progress::note;
 use crate::schemes::SchemeArg;
 use crate::table::{Format, Record, Table, pretty};
-use clap::Args;
+use clap::{ArgGroup, Args};
 use eigenring_scheme::Lattice;
 use eigenring_spectral::{LocalSystem, Matrix};
 use serde_json::{Value, json};
@@ -18,29 +18,25 @@ use std::process::ExitCode;
 /// Blocks k and N-k share their spectrum: they are listed once, with fourier = k <= N/2 and the multiplicity in the whole
 /// matrix. The number of rings is the smallest closed one unless --rings asks for more.
 #[derive(Args, Debug)]
+#[command(group = ArgGroup::new("source").required(true))]
 #[command(
     after_help = "Examples:\n  eigenring spectrum --scheme catmull-clark -N 5\n  eigenring spectrum --scheme tension:order=6,u0=2 -N 7 --level 0 --format json\n  eigenring spectrum --matrix S.csv -N 5"
 )]
 pub struct Arguments {
     /// The scheme: see 'eigenring --help'
-    #[arg(
-        long,
-        value_name = "SPEC",
-        required_unless_present = "matrix",
-        conflicts_with = "matrix"
-    )]
+    #[arg(long, value_name = "SPEC", group = "source")]
     scheme: Option<SchemeArg>,
     /// A local matrix of your own (CSV without header), in the numbering that 'eigenring matrix' shows
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", group = "source")]
     matrix: Option<PathBuf>,
     /// Valence
-    #[arg(short = 'N', long, value_name = "N")]
+    #[arg(short = 'N', long, value_name = "N", value_parser = args::valence, allow_negative_numbers = true)]
     valence: usize,
     /// Rings of control points
-    #[arg(long, value_name = "R", conflicts_with = "matrix")]
+    #[arg(long, value_name = "R", value_parser = args::count, allow_negative_numbers = true, conflicts_with = "matrix")]
     rings: Option<usize>,
     /// Level of refinement, 0 for the first; by default the limit level, which governs continuity
-    #[arg(long, value_name = "LEVEL", conflicts_with = "matrix")]
+    #[arg(long, value_name = "LEVEL", value_parser = args::count, allow_negative_numbers = true, conflicts_with = "matrix")]
     level: Option<usize>,
     #[command(flatten)]
     output: Output,
@@ -68,7 +64,7 @@ pub fn check_rings(rings: Option<usize>, closed: usize) -> Result<usize, Error> 
 
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
-        let valence = check_valence(self.valence)?;
+        let valence = self.valence;
         let (name, system) = match (&self.scheme, &self.matrix) {
             (Some(spec), _) => {
                 let scheme = spec.scheme(valence)?;
@@ -78,7 +74,12 @@ impl Arguments {
             }
             (None, Some(path)) => {
                 let matrix = read_matrix(path)?;
-                let system = LocalSystem::from_matrix(&matrix, valence, CIRCULANT_TOLERANCE)?;
+                let system = LocalSystem::from_matrix(&matrix, valence, CIRCULANT_TOLERANCE).map_err(|error| {
+                    Error::BadFile {
+                        path: path.clone(),
+                        message: error.to_string(),
+                    }
+                })?;
                 (format!("matrix:{}", path.display()), system)
             }
             // the parser demands one of them
@@ -238,7 +239,7 @@ fn read_matrix(path: &Path) -> Result<Matrix<f64>, Error> {
             .map(|(column, entry)| match entry.parse::<f64>() {
                 Ok(number) if number.is_finite() => Ok(number),
                 _ => Err(bad(format!(
-                    "row {}, column {}: '{entry}' is not a finite number",
+                    "row {}, column {}: '{entry}' is no number: accepted are finite ones",
                     index + 1,
                     column + 1
                 ))),

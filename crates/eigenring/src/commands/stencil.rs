@@ -1,6 +1,6 @@
 //! `eigenring stencil`: all weights at one valence and lambda.
 
-use crate::args::{Output, check_valence};
+use crate::args::{self, Output};
 use crate::error::Error;
 use crate::files;
 use crate::schemes::{Point, Tuner};
@@ -18,19 +18,19 @@ use std::process::ExitCode;
 )]
 pub struct Arguments {
     /// Valence
-    #[arg(short = 'N', long, value_name = "N")]
+    #[arg(short = 'N', long, value_name = "N", value_parser = args::valence, allow_negative_numbers = true)]
     valence: usize,
     /// Subdominant eigenvalue, 1/8 < lambda < 1
-    #[arg(long, value_name = "L", allow_negative_numbers = true)]
+    #[arg(long, value_name = "L", value_parser = args::number, allow_negative_numbers = true)]
     lambda: f64,
     /// Weight of each edge neighbour in the face stencil
-    #[arg(long, value_name = "X", requires = "f3", allow_negative_numbers = true)]
+    #[arg(long, value_name = "X", value_parser = args::finite, requires = "f3", allow_negative_numbers = true)]
     f2: Option<f64>,
     /// Weight of the opposite corner in the face stencil
-    #[arg(long, value_name = "X", requires = "f2", allow_negative_numbers = true)]
+    #[arg(long, value_name = "X", value_parser = args::finite, requires = "f2", allow_negative_numbers = true)]
     f3: Option<f64>,
     /// Relaxation mu/lambda^2; by default the smallest feasible one, 1 where curvature can be bounded
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = args::number, allow_negative_numbers = true)]
     s: Option<f64>,
     #[command(flatten)]
     output: Output,
@@ -38,7 +38,7 @@ pub struct Arguments {
 
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
-        let valence = check_valence(self.valence)?;
+        let valence = self.valence;
         let point = match (self.f2, self.f3) {
             (Some(f2), Some(f3)) => Point::given(valence, self.lambda, self.s, 6.0, f2, f3)?,
             _ => Tuner::default().point(valence, self.lambda, self.s)?,

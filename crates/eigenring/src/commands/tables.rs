@@ -1,10 +1,10 @@
 //! `eigenring tables`: the main job.
 
-use crate::args::{ObjectiveArgs, Output, Valences};
+use crate::args::{self, ObjectiveArgs, Output, Valences};
 use crate::error::Error;
 use crate::files;
 use crate::results::{self, FOLDER, Results};
-use crate::run::{Parameters, studies};
+use crate::run::{Parameters, check, studies};
 use crate::table::{Format, Table};
 use clap::{Args, ValueEnum};
 use eigenring_scheme::lambda::Bounds;
@@ -25,7 +25,7 @@ use std::process::ExitCode;
 )]
 pub struct Arguments {
     /// Valences: numbers and ranges, such as 3..20 or 3,5,8..10
-    #[arg(long, value_name = "LIST", default_value = "3..20")]
+    #[arg(long, value_name = "LIST", default_value = "3..20", allow_hyphen_values = true)]
     valences: Valences,
     /// Output folder; files go to its subfolder lambda
     #[arg(long, value_name = "FOLDER", default_value = "results")]
@@ -37,7 +37,7 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t)]
     bounds: BoundsArg,
     /// Relative distance of the samples from eigenvalue bounds
-    #[arg(long, value_name = "X", default_value_t = Options::default().margin)]
+    #[arg(long, value_name = "X", default_value = args::MARGIN, value_parser = args::number, allow_negative_numbers = true)]
     margin: f64,
     /// Triple knots: detected from the samples, or those of the paper's Table 1
     #[arg(long, value_enum, default_value_t)]
@@ -46,7 +46,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "crates/scheme/data/lambda.json")]
     embed: Option<PathBuf>,
     /// Threads; by default one for each core. Results do not depend on it
-    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "COUNT", value_parser = threads, allow_negative_numbers = true)]
     threads: Option<u16>,
     #[command(flatten)]
     objective: ObjectiveArgs,
@@ -103,6 +103,11 @@ pub enum KnotsArg {
     Paper,
 }
 
+fn threads(text: &str) -> Result<u16, String> {
+    let count = text.parse().ok().filter(|count| (1..=1024).contains(count));
+    count.ok_or_else(|| "accepted is 1 to 1024".to_owned())
+}
+
 /// Unfinished samples, below the results' folder.
 const RESUME: &str = ".resume";
 
@@ -144,6 +149,7 @@ fn on_threads<T: Send>(threads: Option<u16>, work: impl FnOnce() -> T + Send) ->
 
 /// Computes and writes everything below `out`.
 pub fn regenerate(parameters: &Parameters, out: &Path, format: Format) -> Result<Results, Error> {
+    check(parameters)?;
     let folder = out.join(FOLDER);
     files::check_writable(&folder)?;
     let resume = folder.join(RESUME);

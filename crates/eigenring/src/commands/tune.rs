@@ -1,13 +1,15 @@
 //! `eigenring tune`: the best stencil at one lambda, or over all.
 
 use super::tables::{BoundsArg, StartsArg};
-use crate::args::{ObjectiveArgs, Output, check_valence};
+use crate::args::{self, ObjectiveArgs, Output};
 use crate::error::Error;
 use crate::files;
 use crate::run::minima_over_lambda;
+use crate::schemes::check_rule;
 use crate::table::{Format, Record, Table, pretty};
-use clap::Args;
+use clap::{ArgGroup, Args};
 use eigenring_scheme::lambda::LambdaTable;
+use eigenring_tune::objective::Settings;
 use eigenring_tune::search::distance;
 use eigenring_tune::sweep::{Minimum, Options, Problem, Sample, sample};
 use serde_json::Value;
@@ -19,22 +21,23 @@ use std::process::ExitCode;
 /// global optimum over lambda (branch: "continued"), as far as the valence is tabulated, else the lowest (branch: "lowest"). The
 /// lowest value is reported beside it.
 #[derive(Args, Debug)]
+#[command(group = ArgGroup::new("target").required(true))]
 #[command(after_help = "Examples:\n  eigenring tune -N 6 --lambda 0.39\n  eigenring tune -N 25 --global --format json")]
 pub struct Arguments {
     /// Valence
-    #[arg(short = 'N', long, value_name = "N")]
+    #[arg(short = 'N', long, value_name = "N", value_parser = args::valence, allow_negative_numbers = true)]
     valence: usize,
     /// Subdominant eigenvalue, 1/8 < lambda < 1
     #[arg(
         long,
         value_name = "L",
-        required_unless_present = "global",
-        conflicts_with = "global",
+        value_parser = args::number,
+        group = "target",
         allow_negative_numbers = true
     )]
     lambda: Option<f64>,
     /// Optimise lambda as well, over [0.15, 0.9]
-    #[arg(long)]
+    #[arg(long, group = "target")]
     global: bool,
     /// Descend from the local minima of the 10 x 10 starting points, or from all of them
     #[arg(long, value_enum, default_value_t)]
@@ -43,7 +46,7 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t)]
     bounds: BoundsArg,
     /// Relative distance from eigenvalue bounds
-    #[arg(long, value_name = "X", default_value_t = Options::default().margin)]
+    #[arg(long, value_name = "X", default_value = args::MARGIN, value_parser = args::number, allow_negative_numbers = true)]
     margin: f64,
     #[command(flatten)]
     objective: ObjectiveArgs,
@@ -53,7 +56,7 @@ pub struct Arguments {
 
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
-        let valence = check_valence(self.valence)?;
+        let valence = self.valence;
         let options = Options {
             bounds: self.bounds.into(),
             margin: self.margin,
@@ -68,6 +71,7 @@ impl Arguments {
     }
 
     fn at(&self, valence: usize, lambda: f64, options: &Options) -> Result<ExitCode, Error> {
+        check_rule(valence, lambda)?;
         let found = sample(valence, lambda, options)?;
         let (index, branch) = match tabulated(&found, options)? {
             Some(index) => (index, "continued"),
@@ -129,12 +133,15 @@ impl Arguments {
     }
 }
 
-/// Which of the minima the embedded spline follows: the nearest, if the valence is tabulated at this lambda and tuning has the
-/// table's phi.
+/// Which of the minima the embedded spline follows: the nearest, if the valence is tabulated at this lambda and the objective
+/// is the one that was tabulated.
 fn tabulated(found: &Sample, options: &Options) -> Result<Option<usize>, Error> {
     let Ok(entry) = LambdaTable::embedded()?.entry(found.valence) else {
         return Ok(None);
     };
+    if options.phi != entry.phi || options.settings != Settings::default() {
+        return Ok(None);
+    }
     let Ok((f2, f3)) = entry.weights(found.lambda) else {
         return Ok(None);
     };
