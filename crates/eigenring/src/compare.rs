@@ -51,12 +51,14 @@ struct Comparer {
 }
 
 impl Comparer {
-    fn number(&mut self, place: impl FnOnce() -> String, expected: f64, found: f64) {
+    /// Compares numbers; a difference is shown as it is written in the files.
+    fn number(&mut self, place: impl FnOnce() -> String, expected: (f64, &str), found: (f64, &str)) {
+        let ((expected, expected_text), (found, found_text)) = (expected, found);
         self.result.compared += 1;
         let excess = (expected - found).abs() / (self.atol + self.rtol * expected.abs());
         // a NaN agrees with nothing; with zero tolerances equal numbers give 0/0
         if !(excess <= 1.0) && expected != found {
-            self.differ(place(), expected.to_string(), found.to_string(), excess);
+            self.differ(place(), expected_text.to_owned(), found_text.to_owned(), excess);
         }
     }
 
@@ -80,7 +82,11 @@ impl Comparer {
         match (expected, found) {
             (Value::Number(a), Value::Number(b)) => {
                 let double = |n: &serde_json::Number| n.as_f64().unwrap_or(f64::NAN);
-                self.number(|| place.to_owned(), double(a), double(b));
+                self.number(
+                    || place.to_owned(),
+                    (double(a), &a.to_string()),
+                    (double(b), &b.to_string()),
+                );
             }
             (Value::Array(a), Value::Array(b)) if a.len() == b.len() => {
                 for (index, (a, b)) in a.iter().zip(b).enumerate() {
@@ -136,7 +142,7 @@ pub fn compare_csv(expected: &str, found: &str, atol: f64, rtol: f64) -> Compari
             }
             let place = || format!("row {}, {name}", index + 1);
             match (a.parse::<f64>(), b.parse::<f64>()) {
-                (Ok(x), Ok(y)) => comparer.number(place, x, y),
+                (Ok(x), Ok(y)) => comparer.number(place, (x, a.as_str()), (y, b.as_str())),
                 _ => comparer.word(place, a, b),
             }
         }
