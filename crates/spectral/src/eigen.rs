@@ -8,9 +8,9 @@
 //!
 //! **Vectors** span the null spaces of `S - ev` and of its transpose, found by a singular value decomposition, which
 //! is as stable for repeated as for simple values. Its dimension is the geometric multiplicity; below the algebraic one
-//! the eigenvalue is defective. The smallest singular value that is *not* taken as zero measures the distance to the next
-//! defect: where it is small (mu close to the outer rings' 1/8) vectors are ill-determined, and it is reported as
-//! [`Eigenspace::separation`].
+//! the eigenvalue is defective. Near a resonance (mu close to the outer rings' 1/8) two eigenvectors become parallel, and left
+//! and right vectors orthogonal: their product is the reciprocal condition number of the eigenvalue, given with each
+//! [`Mode`](crate::Mode).
 
 use crate::components::strong_components;
 use crate::{Block, Error};
@@ -52,9 +52,6 @@ pub struct Eigenspace {
     pub right: Vec<Vec<Complex<f64>>>,
     /// The left eigenvectors, `l S = value l` (no conjugation).
     pub left: Vec<Vec<Complex<f64>>>,
-    /// The smallest singular value of `S - value` that is not taken as zero, relative to the largest: how well the space is
-    /// determined. 1 if there is none.
-    pub separation: f64,
 }
 
 fn modulus(value: Complex<f64>) -> f64 {
@@ -220,7 +217,6 @@ fn eigenspace<T: ComplexField<Real = f64> + Copy>(
         value,
         right: (rank..size).map(|j| column(svd.V(), j, 1.0)).collect(),
         left: (rank..size).map(|j| column(svd.U(), j, -1.0)).collect(),
-        separation: if rank == 0 { 1.0 } else { singular[rank - 1] / largest },
     })
 }
 

@@ -28,8 +28,10 @@ pub struct Mode {
     pub values: Vec<Complex<f64>>,
     /// The dual left eigenvector: weights of the points, in the same order.
     pub functional: Vec<Complex<f64>>,
-    /// See [`Eigenspace::separation`].
-    pub separation: f64,
+    /// `|l . r|` for vectors of unit length in the unknowns of the block, between 0 and 1: the reciprocal condition number of the eigenvalue. Perturbing the matrix by
+    /// `eps` moves the eigenvalue by up to `eps` over this, and near a resonance it falls with the distance of the two
+    /// eigenvalues.
+    pub product: f64,
 }
 
 /// Rows of a local matrix of affine rules sum to 1 up to this: N + 1 roundings of weights below 1, with room to spare.
@@ -195,13 +197,13 @@ impl LocalSystem {
         if !self.symmetric() {
             let space = self.blocks[0].eigenspace(value, 0)?;
             let Dual { right, left, .. } = dual(&space, 0, |i| i)?;
-            let separation = space.separation;
             let modes = right.into_iter().zip(left).map(|(values, functional)| Mode {
                 value,
                 fourier: None,
+                // l . r = 1
+                product: 1.0 / (length(&values) * length(&functional)),
                 values,
                 functional,
-                separation,
             });
             return Ok(modes.collect());
         }
@@ -248,7 +250,7 @@ impl LocalSystem {
                 fourier: Some(fourier),
                 values: sites.iter().map(value_at).collect::<Result<_, Error>>()?,
                 functional: sites.iter().map(weight_at).collect::<Result<_, Error>>()?,
-                separation: space.separation,
+                product: 1.0 / (length(unknowns) * length(coefficients)),
             });
         }
         Ok(modes)
@@ -435,6 +437,8 @@ mod tests {
     /// `M r = value r`, `l M = value l` and `l . r = 1` on the dense matrix.
     fn check(matrix: &Matrix<f64>, mode: &Mode) {
         let size = matrix.rows();
+        let largest = |v: &[Complex<f64>]| v.iter().map(|x| x.0.hypot(x.1)).fold(1.0, f64::max);
+        let scales = [largest(&mode.values), largest(&mode.functional)];
         for i in 0..size {
             let (mut image, mut co_image) = ((0.0, 0.0), (0.0, 0.0));
             for j in 0..size {
@@ -443,9 +447,11 @@ mod tests {
                 co_image.0 += matrix[(j, i)] * mode.functional[j].0;
                 co_image.1 += matrix[(j, i)] * mode.functional[j].1;
             }
-            for (image, vector) in [(image, mode.values[i]), (co_image, mode.functional[i])] {
+            let pairs = [(image, mode.values[i]), (co_image, mode.functional[i])];
+            for ((image, vector), scale) in pairs.into_iter().zip(scales) {
                 let expected = times(mode.value, vector);
-                assert!((image.0 - expected.0).hypot(image.1 - expected.1) < 1e-11, "{mode:?}");
+                let error = (image.0 - expected.0).hypot(image.1 - expected.1);
+                assert!(error < 1e-11 * scale, "{error} {mode:?}");
             }
         }
         let product = mode
@@ -456,7 +462,7 @@ mod tests {
                 let term = times(l, r);
                 (sum.0 + term.0, sum.1 + term.1)
             });
-        assert!((product.0 - 1.0).hypot(product.1) < 1e-11);
+        assert!((product.0 - 1.0).hypot(product.1) < 1e-11 * scales[0] * scales[1]);
     }
 
     #[test]
@@ -507,6 +513,31 @@ mod tests {
             system.modes(1, eigenvalues[0].value),
             Err(Error::Defective { .. })
         ));
+    }
+
+    #[test]
+    fn near_resonance_shows_in_the_product_of_left_and_right() {
+        use eigenring_scheme::lambda::Plane;
+        // mu = 1/8 + gap meets the outer rings' 1/8: vectors stay eigenvectors, and l . r falls with the gap
+        let lambda: f64 = 0.3;
+        let product = |gap: f64| {
+            let plane = Plane::new(6, lambda, (0.125 + gap) / (lambda * lambda)).unwrap();
+            let scheme = plane.stencil(0.16, 0.05).weights.scheme("lambda", 6).unwrap();
+            let system = LocalSystem::new(&scheme.limit, 5).unwrap();
+            let mode = system.single(2, plane.mu()).unwrap();
+            check(&dense(&scheme, 5), &mode);
+            mode.product
+        };
+        let products = [1e-2, 1e-4, 1e-6].map(product);
+        for pair in products.windows(2) {
+            let ratio = pair[0] / pair[1];
+            assert!((50.0..200.0).contains(&ratio), "{products:?}");
+        }
+        // at the resonance itself the eigenvalue is defective
+        let plane = Plane::new(6, lambda, 0.125 / (lambda * lambda)).unwrap();
+        let scheme = plane.stencil(0.16, 0.05).weights.scheme("lambda", 6).unwrap();
+        let system = LocalSystem::new(&scheme.limit, 5).unwrap();
+        assert!(matches!(system.single(2, plane.mu()), Err(Error::Defective { .. })));
     }
 
     #[test]
