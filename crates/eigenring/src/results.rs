@@ -5,7 +5,8 @@
 use crate::run::Parameters;
 use crate::table::{Cell, Format, Table};
 use eigenring_scheme::lambda::LambdaTable;
-use eigenring_tune::study::Study;
+use eigenring_tune::study::{Knots, Study};
+use eigenring_tune::sweep::{Options, Range};
 use serde::{Deserialize, Serialize};
 
 /// The version of the JSON file's format.
@@ -104,7 +105,30 @@ fn command(parameters: &Parameters) -> String {
         [first, .., last] if last - first + 1 == parameters.valences.len() => format!("{first}..{last}"),
         _ => valences.join(","),
     };
-    format!("eigenring tables --valences {valences} --starts {}", parameters.starts)
+    let mut command = format!("eigenring tables --valences {valences} --starts {}", parameters.starts);
+    let usual = Parameters::new(Vec::new(), Knots::Detected, &Options::default(), &Range::default());
+    let mut option = |differs: bool, text: String| {
+        if differs {
+            command.push_str(&text);
+        }
+    };
+    let p = parameters;
+    option(p.bounds != usual.bounds, format!(" --bounds {}", p.bounds));
+    option(p.margin != usual.margin, format!(" --margin {}", p.margin));
+    option(p.knots != usual.knots, " --knots paper".to_owned());
+    option(p.weighted != usual.weighted, " --unweighted".to_owned());
+    option(p.epsilon != usual.epsilon, format!(" --epsilon {}", p.epsilon));
+    option(p.weight != usual.weight, format!(" --weight {}", p.weight));
+    option(
+        p.quadrature != usual.quadrature,
+        format!(" --quadrature {}", p.quadrature),
+    );
+    option(p.phi != usual.phi, format!(" --phi {}", p.phi));
+    option(
+        p.normalisation != usual.normalisation,
+        format!(" --normalisation {}", p.normalisation),
+    );
+    command
 }
 
 /// The table to be embedded.

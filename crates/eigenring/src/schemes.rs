@@ -188,7 +188,7 @@ impl Tuner {
         }
         let tuned = tune()?;
         let kept = self.cache.put(key, &tuned);
-        let place = kept.map_or("not kept: no cache folder".to_owned(), |path| {
+        let place = kept.map_or("not kept: no cache folder can be written".to_owned(), |path| {
             format!("kept in {}", path.display())
         });
         note(&format!(

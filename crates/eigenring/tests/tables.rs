@@ -188,6 +188,21 @@ fn the_embedded_table_is_one_that_the_library_reads() {
 }
 
 #[test]
+fn the_recorded_command_makes_the_same_results() {
+    let place = Place::new();
+    let options =
+        "--unweighted --knots paper --margin 1e-5 --quadrature 4 --phi 5 --bounds sharp --normalisation unit-ring";
+    let options: Vec<&str> = options.split(' ').collect();
+    let first = tables(&place, "first", &options);
+    let json: serde_json::Value = serde_json::from_str(&place.read("first/lambda/tables.json")).unwrap();
+    let command = json["provenance"]["command"].as_str().unwrap();
+    let arguments: Vec<&str> = command.split(' ').skip(1).chain(["--out", "second"]).collect();
+    place.ok(&arguments);
+    assert!(files(&place.path().join("second/lambda")) == first, "{command}");
+    place.ok(&["reproduce", "--check", "--out", "second"]);
+}
+
+#[test]
 fn knots_of_the_paper() {
     let place = Place::new();
     place.ok(&["tables", "--valences", "5,8", "--out", "out", "--knots", "paper"]);
