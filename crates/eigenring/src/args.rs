@@ -1,8 +1,11 @@
 //! Arguments that several commands share.
 
 use crate::table::Format;
-use clap::Args;
+use clap::{Args, ValueEnum};
+use eigenring_scheme::lambda::Bounds;
 use eigenring_tune::objective::{Normalisation, Settings};
+use eigenring_tune::search::Starts;
+use eigenring_tune::sweep::Options;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
@@ -10,7 +13,7 @@ use std::str::FromStr;
 /// practice.
 pub const MAX_VALENCE: usize = 1000;
 
-/// The default margin, that of [`Options`](eigenring_tune::sweep::Options), as it is printed in help texts.
+/// The default margin, that of [`Options`], as it is printed in help texts.
 pub const MARGIN: &str = "2e-6";
 
 /// Reads a valence.
@@ -94,7 +97,7 @@ pub struct ObjectiveArgs {
 }
 
 /// See [`Normalisation`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum NormalisationArg {
     /// Unit norm over the five rings.
     #[default]
@@ -119,13 +122,81 @@ impl ObjectiveArgs {
     }
 }
 
+/// How stencils are tuned.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct TuningArgs {
+    /// Descend from the local minima of the 10 x 10 starting points, or from all of them
+    #[arg(long, value_enum, default_value_t)]
+    pub starts: StartsArg,
+    /// The bound on the last Fourier block: the paper's, or the exact one for odd valences
+    #[arg(long, value_enum, default_value_t)]
+    pub bounds: BoundsArg,
+    /// Relative distance of the samples from eigenvalue bounds
+    #[arg(long, value_name = "X", default_value = MARGIN, value_parser = number, allow_negative_numbers = true)]
+    pub margin: f64,
+    #[command(flatten)]
+    pub objective: ObjectiveArgs,
+}
+
+impl TuningArgs {
+    /// The options of the tuning.
+    pub fn options(&self) -> Options {
+        Options {
+            bounds: self.bounds.into(),
+            margin: self.margin,
+            phi: self.objective.phi,
+            settings: self.objective.settings(),
+            starts: self.starts.into(),
+        }
+    }
+}
+
+/// See [`Starts`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum StartsArg {
+    /// From the local minima of the grid.
+    #[default]
+    #[value(name = "10x10")]
+    Grid,
+    /// From every grid point.
+    Full,
+}
+
+impl From<StartsArg> for Starts {
+    fn from(starts: StartsArg) -> Starts {
+        match starts {
+            StartsArg::Grid => Starts::Grid,
+            StartsArg::Full => Starts::Full,
+        }
+    }
+}
+
+/// See [`Bounds`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum BoundsArg {
+    /// As published.
+    #[default]
+    Paper,
+    /// Exact.
+    Sharp,
+}
+
+impl From<BoundsArg> for Bounds {
+    fn from(bounds: BoundsArg) -> Bounds {
+        match bounds {
+            BoundsArg::Paper => Bounds::Paper,
+            BoundsArg::Sharp => Bounds::Sharp,
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn the_default_margin_is_that_of_the_library() {
-        assert_eq!(number(MARGIN), Ok(eigenring_tune::sweep::Options::default().margin));
+        assert_eq!(number(MARGIN), Ok(Options::default().margin));
     }
 
     #[test]

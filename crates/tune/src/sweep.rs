@@ -215,7 +215,7 @@ impl Default for Range {
 
 impl Range {
     /// The sample values, ascending: `start + i (lambda_l-start)/below` for i = 0..=below, then `lambda_l + i (end-lambda_l)/above`
-    /// for i = 1..=above. If `lambda_l` is not inside, as for N > 22 with the default range, as many in equal steps.
+    /// for i = 1..=above. If `lambda_l` is not inside, as for N > 23 with the default range, as many in equal steps.
     ///
     /// # Errors
     /// [`Error::Range`], and [`Error::Scheme`] for a valence below 3.

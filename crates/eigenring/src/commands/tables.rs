@@ -1,16 +1,14 @@
 //! `eigenring tables`: the main job.
 
-use crate::args::{self, ObjectiveArgs, Output, Valences};
+use crate::args::{Output, TuningArgs, Valences};
 use crate::error::Error;
 use crate::files;
 use crate::results::{self, FOLDER, Results};
 use crate::run::{Parameters, check, studies};
 use crate::table::{Format, Table};
 use clap::{Args, ValueEnum};
-use eigenring_scheme::lambda::Bounds;
-use eigenring_tune::search::Starts;
 use eigenring_tune::study::{Knots, Study};
-use eigenring_tune::sweep::{Options, Range};
+use eigenring_tune::sweep::Range;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -30,15 +28,6 @@ pub struct Arguments {
     /// Output folder; files go to its subfolder lambda
     #[arg(long, value_name = "FOLDER", default_value = "results")]
     out: PathBuf,
-    /// Descend from the local minima of the 10 x 10 starting points, or from all of them
-    #[arg(long, value_enum, default_value_t)]
-    starts: StartsArg,
-    /// The bound on the last Fourier block: the paper's, or the exact one for odd valences
-    #[arg(long, value_enum, default_value_t)]
-    bounds: BoundsArg,
-    /// Relative distance of the samples from eigenvalue bounds
-    #[arg(long, value_name = "X", default_value = args::MARGIN, value_parser = args::number, allow_negative_numbers = true)]
-    margin: f64,
     /// Triple knots: detected from the samples, or those of the paper's Table 1
     #[arg(long, value_enum, default_value_t)]
     knots: KnotsArg,
@@ -49,48 +38,9 @@ pub struct Arguments {
     #[arg(long, value_name = "COUNT", value_parser = threads, allow_negative_numbers = true)]
     threads: Option<u16>,
     #[command(flatten)]
-    objective: ObjectiveArgs,
+    tuning: TuningArgs,
     #[command(flatten)]
     output: Output,
-}
-
-/// See [`Starts`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum StartsArg {
-    /// From the local minima of the grid.
-    #[default]
-    #[value(name = "10x10")]
-    Grid,
-    /// From every grid point.
-    Full,
-}
-
-impl From<StartsArg> for Starts {
-    fn from(starts: StartsArg) -> Starts {
-        match starts {
-            StartsArg::Grid => Starts::Grid,
-            StartsArg::Full => Starts::Full,
-        }
-    }
-}
-
-/// See [`Bounds`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum BoundsArg {
-    /// As published.
-    #[default]
-    Paper,
-    /// Exact.
-    Sharp,
-}
-
-impl From<BoundsArg> for Bounds {
-    fn from(bounds: BoundsArg) -> Bounds {
-        match bounds {
-            BoundsArg::Paper => Bounds::Paper,
-            BoundsArg::Sharp => Bounds::Sharp,
-        }
-    }
 }
 
 /// See [`Knots`].
@@ -113,13 +63,7 @@ const RESUME: &str = ".resume";
 
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
-        let options = Options {
-            bounds: self.bounds.into(),
-            margin: self.margin,
-            phi: self.objective.phi,
-            settings: self.objective.settings(),
-            starts: self.starts.into(),
-        };
+        let options = self.tuning.options();
         let knots = match self.knots {
             KnotsArg::Detected => Knots::Detected,
             KnotsArg::Paper => Knots::Paper,

@@ -1,7 +1,6 @@
 //! `eigenring tune`: the best stencil at one lambda, or over all.
 
-use super::tables::{BoundsArg, StartsArg};
-use crate::args::{self, ObjectiveArgs, Output};
+use crate::args::{self, Output, TuningArgs};
 use crate::error::Error;
 use crate::files;
 use crate::run::minima_over_lambda;
@@ -39,17 +38,8 @@ pub struct Arguments {
     /// Optimise lambda as well, over [0.15, 0.9]
     #[arg(long, group = "target")]
     global: bool,
-    /// Descend from the local minima of the 10 x 10 starting points, or from all of them
-    #[arg(long, value_enum, default_value_t)]
-    starts: StartsArg,
-    /// The bound on the last Fourier block
-    #[arg(long, value_enum, default_value_t)]
-    bounds: BoundsArg,
-    /// Relative distance from eigenvalue bounds
-    #[arg(long, value_name = "X", default_value = args::MARGIN, value_parser = args::number, allow_negative_numbers = true)]
-    margin: f64,
     #[command(flatten)]
-    objective: ObjectiveArgs,
+    tuning: TuningArgs,
     #[command(flatten)]
     output: Output,
 }
@@ -57,13 +47,7 @@ pub struct Arguments {
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         let valence = self.valence;
-        let options = Options {
-            bounds: self.bounds.into(),
-            margin: self.margin,
-            phi: self.objective.phi,
-            settings: self.objective.settings(),
-            starts: self.starts.into(),
-        };
+        let options = self.tuning.options();
         match self.lambda {
             Some(lambda) => self.at(valence, lambda, &options),
             None => self.over_all(valence, &options),

@@ -122,8 +122,11 @@ pub(super) fn file_error(message: impl Into<String>) -> Error {
     }
 }
 
-/// The name and the rules of each valence.
-pub(super) fn read(text: &str) -> Result<(Option<String>, Vec<(usize, Rules)>), Error> {
+/// The name, if there is one, and the rules of each valence.
+type Contents = (Option<String>, Vec<(usize, Rules)>);
+
+/// Reads the text of a file and checks its form.
+pub(super) fn read(text: &str) -> Result<Contents, Error> {
     let file: File = toml::from_str(text).map_err(|error| {
         let line = error.span().map(|span| text[..span.start].matches('\n').count() + 1);
         let place = line.map_or(String::new(), |line| format!("line {line}: "));

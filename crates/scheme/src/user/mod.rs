@@ -171,7 +171,7 @@ mod tests {
 
     /// The module page's examples are the tests' input.
     fn example(kind: &str) -> String {
-        let page = include_str!("user.rs");
+        let page = include_str!("mod.rs");
         let block = page
             .split("//! ```toml\n")
             .skip(1)

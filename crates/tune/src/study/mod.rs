@@ -207,7 +207,7 @@ impl Study {
     /// with the same options.
     ///
     /// # Errors
-    /// Those of the steps; [`Error::Fit`] if lambda_l is not inside the range (N > 22 with the paper's range): the
+    /// Those of the steps; [`Error::Fit`] if lambda_l is not inside the range (N > 23 with the paper's range): the
     /// structure of Eq. 21 has a triple knot there.
     pub fn new(samples: &[Sample], range: &Range, options: &Options, knots: Knots) -> Result<Self, Error> {
         let global = global(samples, options)?;
