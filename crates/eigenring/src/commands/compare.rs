@@ -6,7 +6,7 @@ use crate::files;
 use crate::schemes::{SchemeArg, split};
 use crate::table::Table;
 use clap::Args;
-use eigenring_scheme::{Scheme, registry};
+use eigenring_scheme::Scheme;
 use eigenring_spectral::LocalSystem;
 use eigenring_tune::quality::Quality;
 use std::process::ExitCode;
@@ -15,7 +15,7 @@ use std::str::FromStr;
 /// Compare schemes over valences.
 ///
 /// Columns: lambda; mu/lambda^2 (1: bounded curvature without a flat spot); K_m, the reach of the second-order maps' Gauss
-/// curvatures to the wrong side of zero, and the unweighted objective E, both over the annulus [2,4] with unit 5-ring norm
+/// curvatures to the wrong side of zero, and the unweighted objective E, both over the annulus from 2 to 4 with unit 5-ring norm
 /// (bicubic schemes around a vertex only); theta, the angle at F between V and E, in degrees; and margins: gap = 1 - |mu|/lambda,
 /// strict = 1 - |next eigenvalue|/mu, hull = the smallest weight of a special stencil.
 #[derive(Args, Debug)]
@@ -57,7 +57,6 @@ const QUADRATURE: usize = 5;
 
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
-        debug_assert!(!registry().is_empty());
         let mut table = Table::new([
             "valence",
             "scheme",
