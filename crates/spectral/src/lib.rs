@@ -8,6 +8,7 @@
 mod annulus;
 pub mod bspline;
 mod components;
+mod echelon;
 mod eigen;
 mod error;
 mod maps;
