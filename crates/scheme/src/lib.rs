@@ -35,3 +35,8 @@ pub use site::{Fan, Lattice, Numbering, Site};
 pub use spec::{Family, Spec, registry};
 pub use spline::{Basis, Knots, Spline};
 pub use stencil::Stencil;
+
+/// The README's program is compiled and run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;
