@@ -6,7 +6,7 @@
 //! 1. [`sample`] finds all local minima at one lambda. It depends on nothing else, so samples can be computed in any order, in parallel,
 //!    and stored.
 //! 2. [`branch()`] connects them. The lowest minimum may jump from one lambda to the next (at N = 3 between two basins near
-//!    0.445 and 0.655), and no continuous spline can follow it; the branch starts at the global optimum over lambda
+//!    0.446 and 0.656), and no continuous spline can follow it; the branch starts at the global optimum over lambda
 //!    ([`global`](crate::global)) and follows that local minimum continuously in both directions.
 
 mod branch;
