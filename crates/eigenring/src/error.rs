@@ -33,6 +33,10 @@ pub enum Error {
     },
     #[error("{message}: accepted is {accepted}")]
     Usage { message: String, accepted: String },
+    #[error("cannot start this program again: {0}")]
+    Start(#[source] std::io::Error),
+    #[error("'{command}' failed: {message}")]
+    Rebuild { command: String, message: String },
     /// What the command line parser says, cut to one line.
     #[error("{0}")]
     CommandLine(String),

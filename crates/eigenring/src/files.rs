@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Writes a file under a temporary name in the same folder and renames it when it is complete.
 pub fn write(path: &Path, contents: &[u8]) -> Result<(), Error> {
@@ -54,6 +54,44 @@ pub fn read(path: &Path) -> Result<String, Error> {
         path: path.to_owned(),
         source,
     })
+}
+
+/// The size of a file that must be there and not be empty.
+pub fn size(path: &Path) -> Result<u64, Error> {
+    let size = std::fs::metadata(path).map_err(|source| Error::Read {
+        path: path.to_owned(),
+        source,
+    })?;
+    match size.len() {
+        0 => Err(Error::BadFile {
+            path: path.to_owned(),
+            message: "the file is empty".to_owned(),
+        }),
+        size => Ok(size),
+    }
+}
+
+/// All files below a folder, as sorted paths relative to it.
+pub fn below(folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    let mut found = Vec::new();
+    let mut folders = vec![PathBuf::new()];
+    while let Some(next) = folders.pop() {
+        let path = folder.join(&next);
+        let failed = |source| Error::Read {
+            path: path.clone(),
+            source,
+        };
+        for entry in std::fs::read_dir(&path).map_err(failed)? {
+            let name = next.join(entry.map_err(failed)?.file_name());
+            if folder.join(&name).is_dir() {
+                folders.push(name);
+            } else {
+                found.push(name);
+            }
+        }
+    }
+    found.sort();
+    Ok(found)
 }
 
 /// Writes to standard output, or to a file if one is given. A reader that has gone away is no error.

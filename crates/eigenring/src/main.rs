@@ -12,6 +12,7 @@ mod commands;
 mod compare;
 mod error;
 mod files;
+mod index;
 mod progress;
 mod results;
 mod run;

@@ -122,7 +122,7 @@ fn a_check_finds_a_changed_digit() {
     place.write("out/lambda/samples.csv", csv.replace(line, &line.replace(&f2, &other)));
     let run = place.run(&check);
     assert_eq!(run.code, Some(1), "{}", run.stderr);
-    assert!(run.stdout.contains("DIFFERENT  samples.csv"), "{}", run.stdout);
+    assert!(run.stdout.contains("DIFFERENT  lambda/samples.csv"), "{}", run.stdout);
     let place_line = run
         .stdout
         .lines()
@@ -146,7 +146,7 @@ fn a_check_finds_a_changed_digit() {
     place.write("out/lambda/tables.json", value.to_string());
     let run = place.run(&check);
     assert_eq!(run.code, Some(1), "{}", run.stderr);
-    assert!(run.stdout.contains("DIFFERENT  tables.json"), "{}", run.stdout);
+    assert!(run.stdout.contains("DIFFERENT  lambda/tables.json"), "{}", run.stdout);
     assert!(run.stdout.contains(".valences[0].lambda_l: stored"), "{}", run.stdout);
     // coarse tolerances let it pass
     assert_eq!(place.run(&[&check[..], &["--atol", "1e-3"]].concat()).code, Some(0));
@@ -156,6 +156,44 @@ fn a_check_finds_a_changed_digit() {
     assert_eq!(place.run(&check).code, Some(2));
     place.ok(&["reproduce", "--out", "out"]);
     assert!(files(place.path()) == before);
+}
+
+#[test]
+fn an_index_says_what_is_made_and_checked() {
+    let place = Place::new();
+    place.ok(&["tables", "--valences", "5", "--out", "out"]);
+    let index = |rest: &str| {
+        let lambda = "[[entry]]\nname = \"lambda\"\ncommand = \"eigenring tables --valences 5\"\nfiles = [\"lambda/knots.csv\", \"lambda/samples.csv\"]\n";
+        place.write("out/index.toml", format!("version = 1\n{lambda}{rest}"));
+    };
+    index("");
+    let check = ["reproduce", "--check", "--out", "out"];
+    let report = place.ok(&check);
+    assert_eq!(report.lines().count(), 2, "{report}");
+    // a slow entry with its own check, which holds or not; by name it is made anew
+    let own = |check: &str| {
+        index(&format!(
+            "[[entry]]\nname = \"slow\"\ncommand = \"eigenring tables --valences 4\"\ncheck = \"{check}\"\nfiles = [\"lambda/tables.json\"]\n"
+        ));
+    };
+    own("eigenring stencil -N 5 --lambda 0.5");
+    assert!(place.ok(&check).contains("holds      slow"));
+    own("eigenring stencil -N 5 --lambda 1.5");
+    let run = place.run(&check);
+    assert_eq!(run.code, Some(1));
+    assert!(
+        run.stdout.contains("REFUTED    slow") && run.stdout.contains("1.5"),
+        "{}",
+        run.stdout
+    );
+    let run = place.run(&[&check[..], &["--only", "slow"]].concat());
+    assert_eq!(run.code, Some(1), "the files are those of another valence");
+    assert!(run.stdout.contains("DIFFERENT  lambda/tables.json"), "{}", run.stdout);
+    let report = place.ok(&[&check[..], &["--only", "lambda"]].concat());
+    assert!(!report.contains("slow"), "{report}");
+    let run = place.run(&[&check[..], &["--only", "quick"]].concat());
+    assert_eq!((run.code, run.stderr.lines().count()), (Some(2), 1), "{}", run.stderr);
+    assert!(run.stderr.contains("accepted is lambda, slow"), "{}", run.stderr);
 }
 
 #[test]

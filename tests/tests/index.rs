@@ -1,0 +1,79 @@
+//! `results/index.toml` says what is there and who checks it; this compares it with what is there. That its commands are
+//! accepted, and that they make these files, is what `eigenring reproduce --check` finds out.
+
+use serde::Deserialize;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+#[derive(Deserialize)]
+struct Index {
+    entry: Vec<Entry>,
+}
+
+#[derive(Deserialize)]
+struct Entry {
+    name: String,
+    shows: String,
+    files: Vec<PathBuf>,
+    tests: Vec<String>,
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().to_owned()
+}
+
+fn index() -> Index {
+    toml::from_str(&std::fs::read_to_string(root().join("results/index.toml")).unwrap()).unwrap()
+}
+
+/// The files below a folder but hidden ones, which belong to a run in progress.
+fn below(folder: &Path, found: &mut BTreeSet<PathBuf>) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.file_name().unwrap().to_string_lossy().starts_with('.') {
+            continue;
+        }
+        if path.is_dir() {
+            below(&path, found);
+        } else {
+            found.insert(path);
+        }
+    }
+}
+
+#[test]
+fn every_result_belongs_to_one_entry() {
+    let results = root().join("results");
+    let mut stored = BTreeSet::new();
+    below(&results, &mut stored);
+    assert!(stored.remove(&results.join("index.toml")));
+    for entry in index().entry {
+        assert!(!entry.shows.is_empty() && !entry.files.is_empty(), "{}", entry.name);
+        for file in entry.files {
+            assert!(
+                stored.remove(&results.join(&file)),
+                "{}: {}",
+                entry.name,
+                file.display()
+            );
+        }
+    }
+    assert!(stored.is_empty(), "in no entry: {stored:?}");
+}
+
+#[test]
+fn every_entry_names_tests_that_exist() {
+    for entry in index().entry {
+        assert!(!entry.tests.is_empty(), "nothing holds '{}' to account", entry.name);
+        for test in entry.tests {
+            let (path, function) = test.split_once("::").expect("path::function");
+            let text = std::fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"));
+            let declared = format!("fn {function}()");
+            let position = text
+                .find(&declared)
+                .unwrap_or_else(|| panic!("{path} has no {function}"));
+            let before = text[..position].trim_end().lines().last().unwrap_or_default().trim();
+            assert_eq!(before, "#[test]", "{test} is no test");
+        }
+    }
+}
