@@ -1,0 +1,98 @@
+//! Simple eigenvalues with their vectors, and what remains when they are divided out.
+
+use super::solve::{apply, approximate_inverse, defect, fixed_point};
+use crate::Interval;
+use eigenring_spectral::Matrix;
+
+/// An eigenvalue and its vector, which is 1 at the pivot.
+#[derive(Clone, Debug)]
+pub struct Eigenpair {
+    /// The eigenvalue.
+    pub value: Interval,
+    /// The vector.
+    pub vector: Vec<Interval>,
+    /// Where the vector is exactly 1.
+    pub pivot: usize,
+}
+
+/// An enclosure of a real eigenpair near the given one; `None` if none was proven to exist.
+///
+/// With `x_p = 1` the unknowns are the other entries of x and the eigenvalue. The derivative of `A x - lambda x` by them is
+/// `J = [(A - lambda)_{j != p}, -x]`, and the operator of Krawczyk about the approximation, with R an approximate inverse of
+/// J there, is `K(Y) = -R F + (I - R J(Y)) Y`, where `J(Y) Y = J Y - 2 Y_lambda Y_x`. If K maps a box into its interior, the
+/// box holds exactly one eigenpair, and the derivative is regular in all of it: the eigenvalue is **simple** (Krawczyk 1969;
+/// Rump 2001, *Computational error bounds for multiple or nearly multiple eigenvalues*).
+pub fn eigenpair(matrix: &Matrix<Interval>, value: f64, vector: &[f64]) -> Option<Eigenpair> {
+    let size = matrix.rows();
+    let pivot = (0..size).max_by(|&a, &b| vector[a].abs().total_cmp(&vector[b].abs()))?;
+    let scaled: Vec<f64> = vector.iter().map(|x| x / vector[pivot]).collect();
+    if !value.is_finite() || scaled.iter().any(|x| !x.is_finite()) {
+        return None;
+    }
+    // column `pivot` of J is that of the eigenvalue
+    let derivative = Matrix::from_fn(size, size, |i, j| {
+        if j == pivot {
+            return Interval::point(-scaled[i]);
+        }
+        let shift = if i == j { Interval::point(value) } else { Interval::point(0.0) };
+        matrix[(i, j)] - shift
+    });
+    let inverse = approximate_inverse(&derivative.map(Interval::mid))?;
+    let residual: Vec<Interval> = (0..size)
+        .map(|i| {
+            let image: Interval = (0..size).map(|j| matrix[(i, j)] * Interval::point(scaled[j])).sum();
+            Interval::point(value) * Interval::point(scaled[i]) - image
+        })
+        .collect();
+    let start = apply(&inverse, &residual);
+    let defect = defect(&inverse, &derivative);
+    let two = Interval::point(2.0);
+    let error = fixed_point(&start, |error| {
+        let products: Vec<Interval> = (0..size)
+            .map(|j| if j == pivot { Interval::point(0.0) } else { two * error[pivot] * error[j] })
+            .collect();
+        let quadratic = apply(&inverse, &products);
+        (0..size)
+            .map(|i| start[i] + (0..size).map(|j| defect[(i, j)] * error[j]).sum() + quadratic[i])
+            .collect()
+    })?;
+    let vector = (0..size).map(|i| match i {
+        i if i == pivot => Interval::point(1.0),
+        i => Interval::point(scaled[i]) + error[i],
+    });
+    Some(Eigenpair {
+        value: Interval::point(value) + error[pivot],
+        vector: vector.collect(),
+        pivot,
+    })
+}
+
+/// The matrix on the quotient by an eigenvector x with `x_p = 1`: `A'_ij = a_ij - x_i a_pj` for i, j other than p. Its
+/// eigenvalues are those of A without one copy of the vector's own.
+pub fn quotient(matrix: &Matrix<Interval>, vector: &[Interval], pivot: usize) -> Matrix<Interval> {
+    let rest: Vec<usize> = (0..matrix.rows()).filter(|&i| i != pivot).collect();
+    Matrix::from_fn(rest.len(), rest.len(), |i, j| {
+        matrix[(rest[i], rest[j])] - vector[rest[i]] * matrix[(pivot, rest[j])]
+    })
+}
+
+/// The eigenvector of A that lies above an eigenvector y of the quotient by x. With y extended by 0 at p,
+/// `A y = mu y + t x`, `t = sum_j a_pj y_j`, so that `y + t/(mu - lambda) x` is the vector. `None` unless the two eigenvalues
+/// are certainly different.
+pub fn lift(matrix: &Matrix<Interval>, below: &Eigenpair, value: Interval, vector: &[Interval]) -> Option<Vec<Interval>> {
+    let gap = value - below.value;
+    if !gap.certainly_nonzero() {
+        return None;
+    }
+    let mut extended = vector.to_vec();
+    extended.insert(below.pivot, Interval::point(0.0));
+    let excess: Interval = matrix.row(below.pivot).iter().zip(&extended).map(|(&a, &y)| a * y).sum();
+    let factor = excess / gap;
+    Some(
+        extended
+            .iter()
+            .zip(&below.vector)
+            .map(|(&y, &x)| y + factor * x)
+            .collect(),
+    )
+}

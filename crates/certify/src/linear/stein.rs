@@ -1,0 +1,40 @@
+//! A bound of the spectral radius that does not ask for eigenvectors.
+
+use crate::Interval;
+use eigenring_spectral::Matrix;
+
+/// Whether all eigenvalues of all members of an interval matrix B are proven to have a modulus below `radius`, with the
+/// triangular or full matrix `factor` as evidence.
+///
+/// Let `P = L^T L` and `W = r^2 P - B^T P B`. If W is positive definite, an eigenvector v of B with eigenvalue z has
+/// `0 < v* W v = (r^2 - |z|^2) |L v|^2`, hence `|z| < r` (the inequality of Stein 1952; whether L is regular does not matter).
+/// A matrix with diagonal entries that exceed the sum of magnitudes of the rest of their row is positive definite. Any L
+/// may be tried: the one from the solution of `P - B^T P B / r^2 = I` gives a W near `r^2 I`, as far as doubles can tell.
+pub fn radius_below(matrix: &Matrix<Interval>, factor: &Matrix<f64>, radius: f64) -> bool {
+    let size = matrix.rows();
+    if factor.rows() != size || factor.columns() != size || !(radius > 0.0 && radius.is_finite()) {
+        return false;
+    }
+    let factor = factor.map(Interval::point);
+    // L B and r L; W = (r L)^T (r L) - (L B)^T (L B)
+    let image = Matrix::from_fn(size, size, |i, j| -> Interval {
+        (0..size)
+            .filter(|&k| !factor[(i, k)].is_zero())
+            .map(|k| factor[(i, k)] * matrix[(k, j)])
+            .sum()
+    });
+    let scaled = factor.map(|entry| Interval::point(radius) * entry);
+    let entry = |i: usize, j: usize| -> Interval {
+        (0..size)
+            .map(|k| scaled[(k, i)] * scaled[(k, j)] - image[(k, i)] * image[(k, j)])
+            .sum()
+    };
+    let form = Matrix::from_fn(size, size, |i, j| if j < i { Interval::point(0.0) } else { entry(i, j) });
+    (0..size).all(|i| {
+        let others: Interval = (0..size)
+            .filter(|&j| j != i)
+            .map(|j| Interval::point(form[(i.min(j), i.max(j))].mag()))
+            .sum();
+        form[(i, i)].certainly_gt(others)
+    })
+}
