@@ -1,0 +1,479 @@
+//! A figure: panels on a grid, with what they share, at printed size.
+//!
+//! The width of the figure is that of the printed column, so that text has its nominal size on paper. Panels of a row or column have
+//! aligned frames: each gets the largest margins that any of them needs.
+
+use crate::chart::Chart;
+use crate::colour::{Colour, ColourScale};
+use crate::draw::{self, Margins, Page, SMALL, TITLE};
+use crate::error::Error;
+use crate::legend::{Legend, Side, bar_width, draw_bar};
+use crate::scene::{Rect, Scene};
+use crate::surface::Surface;
+use crate::text::{Anchor, Font};
+
+/// The width of a figure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Width {
+    /// One column: 85 mm.
+    One,
+    /// Both columns: 178 mm.
+    Two,
+    /// Any other, in millimetres.
+    Millimetres(f64),
+}
+
+impl Width {
+    /// In millimetres.
+    pub fn millimetres(self) -> f64 {
+        match self {
+            Width::One => 85.0,
+            Width::Two => 178.0,
+            Width::Millimetres(width) => width,
+        }
+    }
+}
+
+/// What a panel shows.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Content {
+    /// A chart.
+    Chart(Chart),
+    /// A surface in space.
+    Surface(Surface),
+}
+
+impl From<Chart> for Content {
+    fn from(chart: Chart) -> Self {
+        Content::Chart(chart)
+    }
+}
+
+impl From<Surface> for Content {
+    fn from(surface: Surface) -> Self {
+        Content::Surface(surface)
+    }
+}
+
+/// One part of a figure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Panel {
+    content: Content,
+    title: String,
+    bar: Option<ColourScale>,
+    legend: Option<Side>,
+}
+
+impl Panel {
+    /// A chart or surface without title.
+    pub fn new(content: impl Into<Content>) -> Self {
+        Panel {
+            content: content.into(),
+            title: String::new(),
+            bar: None,
+            legend: None,
+        }
+    }
+
+    /// With a title; in figures of several panels the letter (a), (b), ... comes before it.
+    pub fn title(mut self, title: impl Into<String>) -> Self {
+        self.title = title.into();
+        self
+    }
+
+    /// With a colour bar to the right.
+    pub fn colour_bar(mut self, scale: &ColourScale) -> Self {
+        self.bar = Some(scale.clone());
+        self
+    }
+
+    /// With a legend of its labelled layers.
+    pub fn legend(mut self, side: Side) -> Self {
+        self.legend = Some(side);
+        self
+    }
+
+    fn chart(&self) -> Option<&Chart> {
+        match &self.content {
+            Content::Chart(chart) => Some(chart),
+            Content::Surface(_) => None,
+        }
+    }
+
+    fn scales(&self) -> &[(ColourScale, [bool; 2])] {
+        match &self.content {
+            Content::Chart(chart) => &chart.scales,
+            Content::Surface(surface) => &surface.scales,
+        }
+    }
+}
+
+/// Panels on a grid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    size: [f64; 2],
+    description: String,
+    panels: Vec<(usize, usize, Panel)>,
+    rows: Vec<f64>,
+    columns: Vec<f64>,
+    bar: Option<ColourScale>,
+    legend: Option<Side>,
+}
+
+/// Where things are, for tests of the layout. Millimetres from the upper left corner.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layout {
+    /// The page.
+    pub canvas: Rect,
+    /// Every text (its markup) with its box.
+    pub texts: Vec<(String, Rect)>,
+    /// Where data are drawn.
+    pub plots: Vec<Rect>,
+    /// Legends and colour bars.
+    pub legends: Vec<Rect>,
+}
+
+/// Boxes of texts are those of capitals; a fraction of a millimetre of overlap is not seen.
+const TOUCH: f64 = 0.15;
+
+impl Layout {
+    /// What is wrong with the layout: texts beyond the page or over each other, legends over data. Empty if nothing is.
+    pub fn faults(&self) -> Vec<String> {
+        let mut faults = Vec::new();
+        for (index, (text, rect)) in self.texts.iter().enumerate() {
+            if !self.canvas.contains(rect, 0.0) {
+                faults.push(format!("text {text:?} leaves the page: {rect:?}"));
+            }
+            for (other, place) in &self.texts[..index] {
+                if rect.meets(place, TOUCH) {
+                    faults.push(format!("texts {other:?} and {text:?} overlap: {place:?}, {rect:?}"));
+                }
+            }
+        }
+        for legend in &self.legends {
+            if !self.canvas.contains(legend, 0.0) {
+                faults.push(format!("a legend leaves the page: {legend:?}"));
+            }
+            faults.extend(
+                self.plots
+                    .iter()
+                    .filter(|plot| plot.meets(legend, 0.0))
+                    .map(|plot| format!("a legend covers data: {legend:?}, {plot:?}")),
+            );
+        }
+        faults
+    }
+}
+
+/// Blank border of the page, and distances between panels, legends and titles.
+const BORDER: f64 = 1.0;
+const BETWEEN: f64 = 3.0;
+const NEAR: f64 = 1.2;
+/// Smallest frame.
+const LEAST: f64 = 8.0;
+
+impl Figure {
+    /// An empty figure; the description is its accessible title.
+    pub fn new(width: Width, height: f64, description: impl Into<String>) -> Self {
+        Figure {
+            size: [width.millimetres(), height],
+            description: description.into(),
+            panels: Vec::new(),
+            rows: Vec::new(),
+            columns: Vec::new(),
+            bar: None,
+            legend: None,
+        }
+    }
+
+    /// Puts a panel at a row and column, both from 0; the grid grows as needed.
+    pub fn panel(mut self, row: usize, column: usize, panel: Panel) -> Self {
+        self.rows.resize(self.rows.len().max(row + 1), 1.0);
+        self.columns.resize(self.columns.len().max(column + 1), 1.0);
+        self.panels.push((row, column, panel));
+        // letters run along the rows
+        self.panels.sort_by_key(|&(row, column, _)| (row, column));
+        self
+    }
+
+    /// The heights of the rows relative to each other; equal by default. Frames, not their margins, have these proportions.
+    pub fn row_heights(mut self, relative: &[f64]) -> Self {
+        self.rows = relative.to_vec();
+        self
+    }
+
+    /// The widths of the columns relative to each other.
+    pub fn column_widths(mut self, relative: &[f64]) -> Self {
+        self.columns = relative.to_vec();
+        self
+    }
+
+    /// With one colour bar for all panels, at the right.
+    pub fn colour_bar(mut self, scale: &ColourScale) -> Self {
+        self.bar = Some(scale.clone());
+        self
+    }
+
+    /// With one legend for all panels.
+    pub fn legend(mut self, side: Side) -> Self {
+        self.legend = Some(side);
+        self
+    }
+
+    /// Width and height in millimetres.
+    pub fn size(&self) -> [f64; 2] {
+        self.size
+    }
+
+    /// Where things are.
+    ///
+    /// # Errors
+    /// Those of [`Figure::svg`].
+    pub fn layout(&self) -> Result<Layout, Error> {
+        let page = self.draw()?;
+        Ok(Layout {
+            canvas: Rect::new(0.0, 0.0, self.size[0], self.size[1]),
+            texts: page.texts,
+            plots: page.plots,
+            legends: page.legends,
+        })
+    }
+
+    /// The figure as SVG. Equal figures give equal bytes.
+    ///
+    /// # Errors
+    /// [`Error::Range`] for an axis or colour scale without extent, [`Error::NoColourBar`] for coloured values that no bar explains,
+    /// [`Error::NoRoom`] and [`Error::Grid`] for a page too small or empty, [`Error::Character`] for text beyond the font.
+    pub fn svg(&self) -> Result<String, Error> {
+        let page = self.draw()?;
+        Ok(page.scene.svg(&self.description, &page.font))
+    }
+
+    /// The figure as PNG: the SVG, rasterised at so many dots per inch of the printed size, which the file records.
+    ///
+    /// # Errors
+    /// Those of [`Figure::svg`], and [`Error::Resolution`].
+    pub fn png(&self, dpi: f64) -> Result<Vec<u8>, Error> {
+        crate::raster::png(&self.svg()?, dpi)
+    }
+
+    /// Margins of a panel around its frame: its content's, title, colour bar and legend.
+    fn margins(&self, panel: &Panel, about: [f64; 2], page: &Page) -> Result<Margins, Error> {
+        let mut margins = match &panel.content {
+            Content::Chart(chart) => draw::margins(chart, about, page)?,
+            Content::Surface(_) => Margins {
+                left: NEAR,
+                right: NEAR,
+                top: NEAR,
+                bottom: NEAR,
+            },
+        };
+        if self.headed(panel) {
+            margins.top += TITLE + NEAR;
+        }
+        if let Some(scale) = &panel.bar {
+            margins.right = margins.right.max(bar_width(scale, about[1], page)?);
+        }
+        if let (Some(side), Some(chart)) = (panel.legend, panel.chart()) {
+            let [width, height] = Legend::of([chart], page)?.size(side, about[0]);
+            match side {
+                Side::Top => margins.top += height + NEAR,
+                Side::Bottom => margins.bottom += height + NEAR,
+                Side::Right => margins.right += width + 2.0 * NEAR,
+            }
+        }
+        Ok(margins)
+    }
+
+    fn headed(&self, panel: &Panel) -> bool {
+        !panel.title.is_empty() || self.panels.len() > 1
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        let empty = |row, column| Error::Grid {
+            rows: self.rows.len(),
+            columns: self.columns.len(),
+            row,
+            column,
+        };
+        if self.panels.is_empty() {
+            return Err(empty(0, 0));
+        }
+        for (index, (row, column, panel)) in self.panels.iter().enumerate() {
+            if *row >= self.rows.len() || *column >= self.columns.len() {
+                return Err(empty(*row, *column));
+            }
+            for (scale, _) in panel.scales() {
+                scale.check()?;
+                if panel.bar.as_ref() != Some(scale) && self.bar.as_ref() != Some(scale) {
+                    return Err(Error::NoColourBar { panel: index + 1 });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn draw(&self) -> Result<Page, Error> {
+        self.check()?;
+        let mut page = Page {
+            font: Font::new(),
+            scene: Scene {
+                size: self.size,
+                shapes: Vec::new(),
+            },
+            texts: Vec::new(),
+            plots: Vec::new(),
+            legends: Vec::new(),
+        };
+        let [width, height] = self.size;
+        let mut inside = Rect::new(BORDER, BORDER, width - BORDER, height - BORDER);
+
+        // what all panels share takes its place first
+        if let Some(side) = self.legend {
+            let legend = Legend::of(self.panels.iter().filter_map(|(_, _, panel)| panel.chart()), &page)?;
+            let [w, h] = legend.size(side, inside.width());
+            let mut place = inside;
+            match side {
+                Side::Top => {
+                    place.bottom = place.top + h;
+                    inside.top = place.bottom + NEAR;
+                }
+                Side::Bottom => {
+                    place.top = place.bottom - h;
+                    inside.bottom = place.top - NEAR;
+                }
+                Side::Right => {
+                    place.left = place.right - w;
+                    place.top += TITLE + NEAR;
+                    place.bottom = place.top + h;
+                    inside.right = place.left - 2.0 * NEAR;
+                }
+            }
+            legend.draw(&mut page, side, place)?;
+        }
+        if let Some(scale) = &self.bar {
+            inside.right -= bar_width(scale, inside.height(), &page)?;
+        }
+
+        let cells = self.frames(inside, &page)?;
+        for (index, ((_, _, panel), (frame, margins))) in self.panels.iter().zip(&cells).enumerate() {
+            self.draw_panel(index, panel, *frame, *margins, &mut page)?;
+        }
+        if let Some(scale) = &self.bar {
+            let all = self.panels.iter().flat_map(|(_, _, panel)| panel.scales());
+            let beyond = all
+                .filter(|(other, _)| other == scale)
+                .fold([false; 2], |a, (_, b)| [a[0] || b[0], a[1] || b[1]]);
+            let top = cells.iter().map(|(frame, _)| frame.top).fold(f64::INFINITY, f64::min);
+            let bottom = cells.iter().map(|(frame, _)| frame.bottom).fold(0.0, f64::max);
+            let beside = Rect::new(inside.left, top, inside.right, bottom);
+            draw_bar(&mut page, scale, beside, beyond)?;
+        }
+        Ok(page)
+    }
+
+    /// The frames of the panels with their margins, aligned along rows and columns.
+    fn frames(&self, inside: Rect, page: &Page) -> Result<Vec<(Rect, Margins)>, Error> {
+        let (rows, columns) = (self.rows.len(), self.columns.len());
+        let share = |relative: &[f64], index: usize, total: f64| total * relative[index] / relative.iter().sum::<f64>();
+        let (gaps_x, gaps_y) = (BETWEEN * (columns - 1) as f64, BETWEEN * (rows - 1) as f64);
+        let (mut left, mut right) = (vec![0.0f64; columns], vec![0.0f64; columns]);
+        let (mut top, mut bottom) = (vec![0.0f64; rows], vec![0.0f64; rows]);
+        for (row, column, panel) in &self.panels {
+            let about = [
+                share(&self.columns, *column, inside.width() - gaps_x),
+                share(&self.rows, *row, inside.height() - gaps_y),
+            ];
+            let margins = self.margins(panel, about, page)?;
+            left[*column] = left[*column].max(margins.left);
+            right[*column] = right[*column].max(margins.right);
+            top[*row] = top[*row].max(margins.top);
+            bottom[*row] = bottom[*row].max(margins.bottom);
+        }
+        let sum = |values: &[f64]| values.iter().sum::<f64>();
+        let free = [
+            inside.width() - gaps_x - sum(&left) - sum(&right),
+            inside.height() - gaps_y - sum(&top) - sum(&bottom),
+        ];
+        let start = |before: &[f64], after: &[f64], relative: &[f64], free: f64, index: usize, origin: f64| {
+            let earlier: f64 = (0..index)
+                .map(|k| before[k] + after[k] + share(relative, k, free) + BETWEEN)
+                .sum();
+            origin + earlier + before[index]
+        };
+        let mut frames = Vec::with_capacity(self.panels.len());
+        for (index, (row, column, _)) in self.panels.iter().enumerate() {
+            let [w, h] = [share(&self.columns, *column, free[0]), share(&self.rows, *row, free[1])];
+            if !(w >= LEAST && h >= LEAST) {
+                return Err(Error::NoRoom {
+                    panel: index + 1,
+                    width: w,
+                    height: h,
+                    least: LEAST,
+                });
+            }
+            let x = start(&left, &right, &self.columns, free[0], *column, inside.left);
+            let y = start(&top, &bottom, &self.rows, free[1], *row, inside.top);
+            // titles and legends are aligned like the frames
+            let margins = Margins {
+                left: left[*column],
+                right: right[*column],
+                top: top[*row],
+                bottom: bottom[*row],
+            };
+            frames.push((Rect::new(x, y, x + w, y + h), margins));
+        }
+        Ok(frames)
+    }
+
+    fn draw_panel(
+        &self,
+        index: usize,
+        panel: &Panel,
+        frame: Rect,
+        margins: Margins,
+        page: &mut Page,
+    ) -> Result<(), Error> {
+        let plot = match &panel.content {
+            Content::Chart(chart) => draw::draw(chart, page, frame)?,
+            Content::Surface(surface) => {
+                surface.draw(&mut page.scene, frame);
+                page.plots.push(frame);
+                frame
+            }
+        };
+        if let Some(scale) = &panel.bar {
+            let seen = panel.scales().iter().find(|(other, _)| other == scale);
+            draw_bar(page, scale, plot, seen.map_or([false; 2], |(_, beyond)| *beyond))?;
+        }
+        let mut top = frame.top - margins.top;
+        if self.headed(panel) {
+            let letter = match self.panels.len() {
+                1 => String::new(),
+                _ => format!("({}) ", char::from(b'a' + (index % 26) as u8)),
+            };
+            let at = [frame.left - margins.left, top + 0.85 * TITLE];
+            let title = format!("{letter}{}", panel.title);
+            page.text(title.trim_end(), TITLE, at, Anchor::Start, false, Colour::INK)?;
+            top += TITLE + NEAR;
+        }
+        if let (Some(side), Some(chart)) = (panel.legend, panel.chart()) {
+            let legend = Legend::of([chart], page)?;
+            let (left, right) = (frame.left - margins.left, frame.right + margins.right);
+            let [w, h] = legend.size(side, frame.width() + margins.left);
+            let place = match side {
+                Side::Top => Rect::new(left, top, right, top + h),
+                Side::Bottom => {
+                    let bottom = frame.bottom + margins.bottom;
+                    Rect::new(left, bottom - h, right, bottom)
+                }
+                Side::Right => Rect::new(right - w, frame.top, right, frame.top + h),
+            };
+            legend.draw(page, side, place)?;
+        }
+        Ok(())
+    }
+}
+
+/// The height of one line of labels, in millimetres: a help in choosing the height of a figure.
+pub const TEXT_LINE: f64 = 1.3 * SMALL;

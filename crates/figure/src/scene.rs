@@ -1,0 +1,332 @@
+//! What is drawn, in millimetres on the page, and its SVG text.
+//!
+//! A scene is a list of shapes from back to front: paths, meshes of filled cells, circles, and text. Everything is clipped before it gets here, so that
+//! no clip paths (whose identifiers would clash on a page with several pictures) are needed. Numbers have a fixed count of decimals: equal scenes give
+//! equal bytes.
+
+use crate::colour::Colour;
+use crate::text::{Font, Placed};
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+/// A rectangle on the page; y grows downwards.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rect {
+    /// Smallest x.
+    pub left: f64,
+    /// Smallest y.
+    pub top: f64,
+    /// Largest x.
+    pub right: f64,
+    /// Largest y.
+    pub bottom: f64,
+}
+
+impl Rect {
+    /// From its four sides.
+    pub fn new(left: f64, top: f64, right: f64, bottom: f64) -> Self {
+        Rect {
+            left,
+            top,
+            right,
+            bottom,
+        }
+    }
+
+    /// Its extent in x.
+    pub fn width(&self) -> f64 {
+        self.right - self.left
+    }
+
+    /// Its extent in y.
+    pub fn height(&self) -> f64 {
+        self.bottom - self.top
+    }
+
+    /// Whether the other one lies inside, up to `slack`.
+    pub fn contains(&self, other: &Rect, slack: f64) -> bool {
+        other.left >= self.left - slack
+            && other.top >= self.top - slack
+            && other.right <= self.right + slack
+            && other.bottom <= self.bottom + slack
+    }
+
+    /// Whether the insides meet, by more than `slack` each way.
+    pub fn meets(&self, other: &Rect, slack: f64) -> bool {
+        self.left < other.right - slack
+            && other.left < self.right - slack
+            && self.top < other.bottom - slack
+            && other.top < self.bottom - slack
+    }
+}
+
+/// How a line is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stroke {
+    /// Its colour.
+    pub colour: Colour,
+    /// Its width in millimetres.
+    pub width: f64,
+    /// Its dashes.
+    pub dash: Dash,
+}
+
+impl Stroke {
+    /// A solid line.
+    pub fn solid(colour: Colour, width: f64) -> Self {
+        Stroke {
+            colour,
+            width,
+            dash: Dash::Solid,
+        }
+    }
+}
+
+/// Dashes, in an order in which neighbours are easily told apart.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Dash {
+    /// None.
+    #[default]
+    Solid,
+    /// Long ones.
+    Dashed,
+    /// Dots.
+    Dotted,
+    /// Dash and dot in turn.
+    DashDot,
+}
+
+impl Dash {
+    /// The dashes of the line number `index`, over and over.
+    pub fn line(index: usize) -> Dash {
+        [Dash::Solid, Dash::Dashed, Dash::DashDot, Dash::Dotted][index % 4]
+    }
+
+    /// Lengths in units of millimetres.
+    fn lengths(self) -> &'static str {
+        match self {
+            Dash::Solid => "",
+            Dash::Dashed => "1.5 0.8",
+            Dash::Dotted => "0.3 0.6",
+            Dash::DashDot => "1.8 0.6 0.3 0.6",
+        }
+    }
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Shape {
+    Path {
+        lines: Vec<Vec<[f64; 2]>>,
+        closed: bool,
+        fill: Option<(Colour, f64)>,
+        stroke: Option<Stroke>,
+    },
+    /// Cells that are stroked with their own colour, so that no seam shows between neighbours.
+    Mesh { cells: Vec<(Colour, Vec<[f64; 2]>)> },
+    Circle {
+        at: [f64; 2],
+        radius: f64,
+        fill: Colour,
+        stroke: Stroke,
+    },
+    Text {
+        text: Placed,
+        colour: Colour,
+        source: String,
+    },
+}
+
+/// Width of the strokes that close the seams of a mesh.
+const SEAM: f64 = 0.06;
+
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Scene {
+    pub size: [f64; 2],
+    pub shapes: Vec<Shape>,
+}
+
+/// A number with at most `decimals` decimals, without trailing zeros.
+pub(crate) fn number(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let text = match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.'),
+        false => &text,
+    };
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
+}
+
+fn path_data(lines: &[Vec<[f64; 2]>], closed: bool, decimals: usize) -> String {
+    let mut data = String::new();
+    for line in lines {
+        for (index, [x, y]) in line.iter().enumerate() {
+            data.push(if index == 0 { 'M' } else { 'L' });
+            data.push_str(&number(*x, decimals));
+            data.push(' ');
+            data.push_str(&number(*y, decimals));
+        }
+        if closed {
+            data.push('Z');
+        }
+    }
+    data
+}
+
+fn stroke_attributes(stroke: &Option<Stroke>) -> String {
+    let Some(stroke) = stroke else { return String::new() };
+    let mut text = format!(
+        " stroke=\"{}\" stroke-width=\"{}\"",
+        stroke.colour.hex(),
+        number(stroke.width, 3)
+    );
+    if stroke.dash != Dash::Solid {
+        let _ = write!(text, " stroke-dasharray=\"{}\"", stroke.dash.lengths());
+    }
+    text
+}
+
+impl Scene {
+    pub fn svg(&self, title: &str, font: &Font) -> String {
+        let [width, height] = self.size.map(|length| number(length, 3));
+        let mut out = String::new();
+        // writing to a String cannot fail
+        let _ = writeln!(
+            out,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"{width}mm\" \
+             height=\"{height}mm\" viewBox=\"0 0 {width} {height}\" stroke-linejoin=\"round\" role=\"img\">\n\
+             <title>{}</title>",
+            escape(title)
+        );
+        let glyphs = self.shapes.iter().flat_map(|shape| match shape {
+            Shape::Text { text, .. } => text.line.glyphs.as_slice(),
+            _ => &[],
+        });
+        let used: BTreeSet<u16> = glyphs.map(|glyph| glyph.id).collect();
+        out.push_str("<defs>\n");
+        for id in used {
+            let outline = font.outline(id);
+            if !outline.is_empty() {
+                let _ = writeln!(out, "<path id=\"glyph{id}\" d=\"{outline}\"/>");
+            }
+        }
+        let _ = writeln!(
+            out,
+            "</defs>\n<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>"
+        );
+        for shape in &self.shapes {
+            shape.svg(&mut out, font);
+        }
+        out.push_str("</svg>\n");
+        out
+    }
+}
+
+impl Shape {
+    fn svg(&self, out: &mut String, font: &Font) {
+        // writing to a String cannot fail
+        let _ = match self {
+            Shape::Path {
+                lines,
+                closed,
+                fill,
+                stroke,
+            } => {
+                let fill = match fill {
+                    None => " fill=\"none\"".to_owned(),
+                    Some((colour, opacity)) if *opacity < 1.0 => {
+                        format!(" fill=\"{}\" fill-opacity=\"{}\"", colour.hex(), number(*opacity, 3))
+                    }
+                    Some((colour, _)) => format!(" fill=\"{}\"", colour.hex()),
+                };
+                let data = path_data(lines, *closed, 3);
+                writeln!(out, "<path d=\"{data}\"{fill}{}/>", stroke_attributes(stroke))
+            }
+            Shape::Mesh { cells } => {
+                let _ = writeln!(out, "<g stroke-width=\"{SEAM}\">");
+                for run in cells.chunk_by(|a, b| a.0 == b.0) {
+                    let colour = run[0].0.hex();
+                    let data: String = run
+                        .iter()
+                        .map(|(_, cell)| path_data(std::slice::from_ref(cell), true, 2))
+                        .collect();
+                    let _ = writeln!(out, "<path d=\"{data}\" fill=\"{colour}\" stroke=\"{colour}\"/>");
+                }
+                writeln!(out, "</g>")
+            }
+            Shape::Circle {
+                at: [x, y],
+                radius,
+                fill,
+                stroke,
+            } => writeln!(
+                out,
+                "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{}\"{}/>",
+                number(*x, 3),
+                number(*y, 3),
+                number(*radius, 3),
+                fill.hex(),
+                stroke_attributes(&Some(*stroke))
+            ),
+            Shape::Text { text, colour, source } => {
+                let _ = writeln!(
+                    out,
+                    "<g fill=\"{}\" aria-label=\"{}\">",
+                    colour.hex(),
+                    escape(&source.replace('$', ""))
+                );
+                for glyph in &text.line.glyphs {
+                    if font.outline(glyph.id).is_empty() {
+                        continue;
+                    }
+                    let scale = font.scale(glyph.size);
+                    let shear = if glyph.oblique { scale * Font::shear() } else { 0.0 };
+                    let ([x, y], [dx, dy]) = (text.at, glyph.at);
+                    let (matrix, at) = if text.upwards {
+                        ([0.0, -scale, -scale, -shear], [x + dy, y - dx])
+                    } else {
+                        ([scale, 0.0, shear, -scale], [x + dx, y + dy])
+                    };
+                    let matrix: Vec<String> = matrix.iter().map(|&m| number(m, 7)).collect();
+                    let _ = writeln!(
+                        out,
+                        "<use xlink:href=\"#glyph{}\" transform=\"matrix({} {} {})\"/>",
+                        glyph.id,
+                        matrix.join(" "),
+                        number(at[0], 3),
+                        number(at[1], 3)
+                    );
+                }
+                writeln!(out, "</g>")
+            }
+        };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_one_form() {
+        for (value, text) in [
+            (0.0, "0"),
+            (-0.0001, "0"),
+            (1.25, "1.25"),
+            (1.2345, "1.234"),
+            (-3.0, "-3"),
+            (100.0, "100"),
+        ] {
+            assert_eq!(number(value, 3), text);
+        }
+    }
+
+    #[test]
+    fn rectangles() {
+        let a = Rect::new(0.0, 0.0, 2.0, 1.0);
+        assert!(a.contains(&Rect::new(0.5, 0.0, 2.0, 1.0), 0.0) && !a.contains(&Rect::new(0.5, 0.0, 2.1, 1.0), 0.05));
+        assert!(a.meets(&Rect::new(1.0, 0.5, 3.0, 3.0), 0.0) && !a.meets(&Rect::new(2.0, 0.0, 3.0, 1.0), 0.0));
+    }
+}
