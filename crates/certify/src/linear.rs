@@ -14,7 +14,6 @@ mod solve;
 mod stein;
 
 pub use eigenpair::{Eigenpair, eigenpair, lift, quotient};
-pub(crate) use solve::approximate_inverse;
 pub use solve::solve;
 pub use stein::radius_below;
 
@@ -70,8 +69,16 @@ pub(crate) fn roots(trace: Interval, det: Interval, discriminant: Interval, half
         let root = half * discriminant.sqrt();
         let (upper, lower) = (middle + root, middle - root);
         // the root away from the cancellation, then the other as det over it
-        let (large, small) = if trace.mid() >= 0.0 { (upper, lower) } else { (lower, upper) };
-        let sharp = if large.certainly_nonzero() { det / large } else { Interval::ENTIRE };
+        let (large, small) = if trace.mid() >= 0.0 {
+            (upper, lower)
+        } else {
+            (lower, upper)
+        };
+        let sharp = if large.certainly_nonzero() {
+            det / large
+        } else {
+            Interval::ENTIRE
+        };
         let small = small.intersect(sharp).unwrap_or(small);
         return [Eigenvalue::real(large), Eigenvalue::real(small)];
     }

@@ -17,11 +17,12 @@ pub struct Eigenpair {
 
 /// An enclosure of a real eigenpair near the given one; `None` if none was proven to exist.
 ///
-/// With `x_p = 1` the unknowns are the other entries of x and the eigenvalue. The derivative of `A x - lambda x` by them is
-/// `J = [(A - lambda)_{j != p}, -x]`, and the operator of Krawczyk about the approximation, with R an approximate inverse of
-/// J there, is `K(Y) = -R F + (I - R J(Y)) Y`, where `J(Y) Y = J Y - 2 Y_lambda Y_x`. If K maps a box into its interior, the
-/// box holds exactly one eigenpair, and the derivative is regular in all of it: the eigenvalue is **simple** (Krawczyk 1969;
-/// Rump 2001, *Computational error bounds for multiple or nearly multiple eigenvalues*).
+/// With `x_p = 1` the unknowns are the other entries of x and the eigenvalue. About an approximation with the residual F and
+/// the derivative `J = [(A - lambda)_{j != p}, -x]` the error e of both is a zero of `F + J e - e_lambda e_x`, hence, with R
+/// an approximate inverse of J, a fixed point of `-R F + (I - R J) e + R e_lambda e_x`. A box that is mapped into its interior
+/// holds one (Brouwer; Rump 2001, *Computational error bounds for multiple or nearly multiple eigenvalues*). If moreover
+/// `I - R J` has a norm below 1 for J at every point of the box, J is regular there: the pair is the only one, and the
+/// eigenvalue is **simple**.
 pub fn eigenpair(matrix: &Matrix<Interval>, value: f64, vector: &[f64]) -> Option<Eigenpair> {
     let size = matrix.rows();
     let pivot = (0..size).max_by(|&a, &b| vector[a].abs().total_cmp(&vector[b].abs()))?;
@@ -34,7 +35,11 @@ pub fn eigenpair(matrix: &Matrix<Interval>, value: f64, vector: &[f64]) -> Optio
         if j == pivot {
             return Interval::point(-scaled[i]);
         }
-        let shift = if i == j { Interval::point(value) } else { Interval::point(0.0) };
+        let shift = if i == j {
+            Interval::point(value)
+        } else {
+            Interval::point(0.0)
+        };
         matrix[(i, j)] - shift
     });
     let inverse = approximate_inverse(&derivative.map(Interval::mid))?;
@@ -46,16 +51,40 @@ pub fn eigenpair(matrix: &Matrix<Interval>, value: f64, vector: &[f64]) -> Optio
         .collect();
     let start = apply(&inverse, &residual);
     let defect = defect(&inverse, &derivative);
-    let two = Interval::point(2.0);
     let error = fixed_point(&start, |error| {
         let products: Vec<Interval> = (0..size)
-            .map(|j| if j == pivot { Interval::point(0.0) } else { two * error[pivot] * error[j] })
+            .map(|j| {
+                if j == pivot {
+                    Interval::point(0.0)
+                } else {
+                    error[pivot] * error[j]
+                }
+            })
             .collect();
         let quadratic = apply(&inverse, &products);
         (0..size)
             .map(|i| start[i] + (0..size).map(|j| defect[(i, j)] * error[j]).sum() + quadratic[i])
             .collect()
     })?;
+    let error_size: Vec<f64> = error.iter().map(|e| e.mag()).collect();
+    let regular = (0..size).all(|i| {
+        let unmoved: Interval = (0..size).map(|j| Interval::point(defect[(i, j)].mag())).sum();
+        let moved: Interval = (0..size)
+            .map(|j| {
+                // column j of J moves by the error of the eigenvalue on its diagonal, the pivot's by that of the vector
+                let size = if j == pivot {
+                    0.0
+                } else {
+                    error_size[j] + error_size[pivot]
+                };
+                Interval::point(inverse[(i, j)].abs()) * Interval::point(size.next_up())
+            })
+            .sum();
+        (unmoved + moved).certainly_lt(Interval::point(1.0))
+    });
+    if !regular {
+        return None;
+    }
     let vector = (0..size).map(|i| match i {
         i if i == pivot => Interval::point(1.0),
         i => Interval::point(scaled[i]) + error[i],
@@ -79,14 +108,24 @@ pub fn quotient(matrix: &Matrix<Interval>, vector: &[Interval], pivot: usize) ->
 /// The eigenvector of A that lies above an eigenvector y of the quotient by x. With y extended by 0 at p,
 /// `A y = mu y + t x`, `t = sum_j a_pj y_j`, so that `y + t/(mu - lambda) x` is the vector. `None` unless the two eigenvalues
 /// are certainly different.
-pub fn lift(matrix: &Matrix<Interval>, below: &Eigenpair, value: Interval, vector: &[Interval]) -> Option<Vec<Interval>> {
+pub fn lift(
+    matrix: &Matrix<Interval>,
+    below: &Eigenpair,
+    value: Interval,
+    vector: &[Interval],
+) -> Option<Vec<Interval>> {
     let gap = value - below.value;
     if !gap.certainly_nonzero() {
         return None;
     }
     let mut extended = vector.to_vec();
     extended.insert(below.pivot, Interval::point(0.0));
-    let excess: Interval = matrix.row(below.pivot).iter().zip(&extended).map(|(&a, &y)| a * y).sum();
+    let excess: Interval = matrix
+        .row(below.pivot)
+        .iter()
+        .zip(&extended)
+        .map(|(&a, &y)| a * y)
+        .sum();
     let factor = excess / gap;
     Some(
         extended

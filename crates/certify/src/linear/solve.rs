@@ -55,18 +55,18 @@ pub(super) fn apply(inverse: &Matrix<f64>, vector: &[Interval]) -> Vec<Interval>
 pub(super) fn defect(inverse: &Matrix<f64>, matrix: &Matrix<Interval>) -> Matrix<Interval> {
     let size = matrix.rows();
     Matrix::from_fn(size, size, |i, j| {
-        let entry: Interval = (0..size).map(|k| Interval::point(inverse[(i, k)]) * matrix[(k, j)]).sum();
+        let entry: Interval = (0..size)
+            .map(|k| Interval::point(inverse[(i, k)]) * matrix[(k, j)])
+            .sum();
         Interval::point(f64::from(i == j)) - entry
     })
 }
 
 /// A box that `map` takes into its interior, starting at `start`; `None` if none is found. Boxes are inflated by a tenth
 /// and an absolute trifle (Rump's epsilon inflation), for at most ten steps, more than which has never been of use.
-pub(super) fn fixed_point(
-    start: &[Interval],
-    map: impl Fn(&[Interval]) -> Vec<Interval>,
-) -> Option<Vec<Interval>> {
+pub(super) fn fixed_point(start: &[Interval], map: impl Fn(&[Interval]) -> Vec<Interval>) -> Option<Vec<Interval>> {
     const STEPS: usize = 10;
+    const SHARPENED: usize = 2;
     let mut image = start.to_vec();
     for _ in 0..STEPS {
         let inflated: Vec<Interval> = image
@@ -77,7 +77,20 @@ pub(super) fn fixed_point(
         if image.iter().any(|x| !x.is_bounded()) {
             return None;
         }
-        if inflated.iter().zip(&image).all(|(outer, &inner)| outer.encloses_strictly(inner)) {
+        if inflated
+            .iter()
+            .zip(&image)
+            .all(|(outer, &inner)| outer.encloses_strictly(inner))
+        {
+            // the fixed point is in the image, hence in its image too: a rough start is made up for
+            for _ in 0..SHARPENED {
+                let sharper = map(&image);
+                image = image
+                    .iter()
+                    .zip(sharper)
+                    .map(|(&a, b)| a.intersect(b).unwrap_or(a))
+                    .collect();
+            }
             return Some(image);
         }
     }

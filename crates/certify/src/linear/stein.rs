@@ -8,7 +8,7 @@ use eigenring_spectral::Matrix;
 ///
 /// Let `P = L^T L` and `W = r^2 P - B^T P B`. If W is positive definite, an eigenvector v of B with eigenvalue z has
 /// `0 < v* W v = (r^2 - |z|^2) |L v|^2`, hence `|z| < r` (the inequality of Stein 1952; whether L is regular does not matter).
-/// A matrix with diagonal entries that exceed the sum of magnitudes of the rest of their row is positive definite. Any L
+/// A matrix is positive definite if, in some scaling `d_i w_ij d_j`, diagonal entries exceed the sum of magnitudes of the rest of their row. Any L
 /// may be tried: the one from the solution of `P - B^T P B / r^2 = I` gives a W near `r^2 I`, as far as doubles can tell.
 pub fn radius_below(matrix: &Matrix<Interval>, factor: &Matrix<f64>, radius: f64) -> bool {
     let size = matrix.rows();
@@ -29,12 +29,20 @@ pub fn radius_below(matrix: &Matrix<Interval>, factor: &Matrix<f64>, radius: f64
             .map(|k| scaled[(k, i)] * scaled[(k, j)] - image[(k, i)] * image[(k, j)])
             .sum()
     };
-    let form = Matrix::from_fn(size, size, |i, j| if j < i { Interval::point(0.0) } else { entry(i, j) });
+    let form = Matrix::from_fn(
+        size,
+        size,
+        |i, j| if j < i { Interval::point(0.0) } else { entry(i, j) },
+    );
+    // any positive scaling of rows and columns alike keeps definiteness; this one makes the diagonal about 1
+    let scale: Vec<Interval> = (0..size)
+        .map(|i| Interval::point(form[(i, i)].mid().max(f64::MIN_POSITIVE).sqrt().recip()))
+        .collect();
     (0..size).all(|i| {
         let others: Interval = (0..size)
             .filter(|&j| j != i)
-            .map(|j| Interval::point(form[(i.min(j), i.max(j))].mag()))
+            .map(|j| Interval::point((form[(i.min(j), i.max(j))] * scale[j]).mag()))
             .sum();
-        form[(i, i)].certainly_gt(others)
+        (form[(i, i)] * scale[i]).certainly_gt(others)
     })
 }

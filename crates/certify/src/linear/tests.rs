@@ -163,7 +163,10 @@ fn radii_are_bounded_by_any_good_factor_and_no_other() {
     assert!(radius_below(&jordan, &factor(10.0), 0.7));
     assert!(!radius_below(&jordan, &factor(1.0), 0.7));
     for s in [0.1, 1.0, 3.0, 10.0, 1e3] {
-        assert!(!radius_below(&jordan, &factor(s), 0.5), "never at the eigenvalue itself");
+        assert!(
+            !radius_below(&jordan, &factor(s), 0.5),
+            "never at the eigenvalue itself"
+        );
     }
     assert!(!radius_below(&jordan, &factor(f64::NAN), 0.7));
 }
