@@ -14,6 +14,7 @@
 //! Intervals are not ordered. The comparisons here say what is certain: `a.certainly_lt(b)` being false says nothing about
 //! `a >= b`.
 
+mod angle;
 mod decimal;
 mod ops;
 mod round;

@@ -266,3 +266,43 @@ fn formulas_over_duals_of_intervals_hold_their_derivatives() {
         assert!(f.parts[0].contains(1.0 / root - root / (t * t)));
     }
 }
+
+proptest! {
+    #[test]
+    fn arguments_are_enclosed(x in -3.0..3.0_f64, y in -3.0..3.0_f64, radius in 0.0..0.1_f64, s in -1.0..1.0_f64, t in -1.0..1.0_f64) {
+        let (bx, by) = (Interval::around(x, radius), Interval::around(y, radius));
+        let inside = (y + t * radius).atan2(x + s * radius);
+        // the library's atan2 is right within an ulp or so
+        let found = Interval::argument(bx, by);
+        prop_assert!(found.lo() - 1e-15 <= inside && inside <= found.hi() + 1e-15);
+        let point = Interval::argument(Interval::point(x), Interval::point(y));
+        prop_assert!(point.width() < 2e-15 || (y == 0.0 && x <= 0.0), "{point:?}");
+        prop_assert!((point.mid() - y.atan2(x)).abs() < 2e-15);
+    }
+}
+
+#[test]
+fn arc_tangents_of_known_angles() {
+    // tan(pi/8) = sqrt 2 - 1, tan(pi/12) = 2 - sqrt 3, and the addition theorem of Machin's formula
+    let pi = Interval::pi();
+    let over = |q: i64| pi / Interval::integer(q);
+    let root = |q: i64| Interval::integer(q).sqrt();
+    for (tangent, angle) in [
+        (root(2) - Interval::point(1.0), over(8)),
+        (Interval::point(2.0) - root(3), over(12)),
+        (root(3), over(3)),
+        (Interval::point(1.0), over(4)),
+        (-root(3), -over(3)),
+    ] {
+        assert!(tangent.atan().intersect(angle).is_some());
+        assert!(tangent.atan().width() < 2e-15);
+    }
+    let four = Interval::integer(4);
+    let machin = four * (four * Interval::ratio(1, 5).atan() - Interval::ratio(1, 239).atan());
+    assert!(machin.contains(std::f64::consts::PI) && machin.width() < 1e-14);
+    assert_eq!(Interval::ENTIRE.atan().hi(), (pi / Interval::integer(2)).hi());
+    assert_eq!(
+        Interval::argument(Interval::point(-1.0), Interval::point(0.0)),
+        pi * Interval::unit()
+    );
+}

@@ -8,8 +8,8 @@
 //! **Error.** All quantities are at most one. `r = t / (6 n)` and `x = pi r` are rounded down with an error below one unit
 //! and below two units, `x^2` below five (`2 x * 2 + 1` and the truncation). With `e_j` the error of the term
 //! `T_j = T_(j-1) x^2 / c_j`, `c_j >= 2`: `e_j <= (e_(j-1) + 5 + 1) / 2 + 1`, so `e_j <= 8` for every `j`. At most 20 terms
-//! are summed before a term is zero in fixed point, and the rest of the alternating series is below the next term, less
-//! than 10 units. The total is below `8 * 21 + 10 < 2^8` units; [`SLACK`] grants four times that.
+//! are summed (30 where `x` comes from [`sin_cos`]) before a term is zero in fixed point, and the rest of the alternating series is below the next term, less
+//! than 10 units. The total is below `8 * 31 + 10 < 2^9` units; [`SLACK`] grants twice that.
 
 use super::Interval;
 
@@ -50,6 +50,14 @@ pub(super) fn cos_turn(k: i128, n: i128) -> Interval {
         enclose(series(angle(turn, 6 * n), ONE, 1))
     };
     if negative { -cosine } else { cosine }
+}
+
+/// Enclosures of the sine and the cosine of a double in `[0, 1)`.
+pub(super) fn sin_cos(x: f64) -> [Interval; 2] {
+    debug_assert!((0.0..1.0).contains(&x));
+    // the scale is a power of two: only bits below the unit are lost
+    let x = (x * ONE as f64) as u128;
+    [enclose(series(x, x, 2)), enclose(series(x, ONE, 1))]
 }
 
 /// `pi t / d` for `t / d <= 1/4`, rounded down.

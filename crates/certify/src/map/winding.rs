@@ -1,0 +1,156 @@
+//! Injectivity: a regular self-similar map is injective exactly when its outer boundary winds once round the origin.
+//!
+//! **Theorem** (Reif 1995; Zorin 2000, *SIAM J. Numer. Anal.* 37; Umlauf 2000; Peters and Reif 2008, chapter 5). Let the map
+//! `X` of the annulus be regular, extended by `X(2 t) = X(t) / lambda`, `0 < lambda < 1`, and let the image of its outer
+//! boundary miss the origin and have winding number w about it. Then the extension covers the punctured plane `|w|` times;
+//! it is injective if and only if `|w| = 1`.
+//!
+//! *Why.* The inner boundary is the outer one scaled by lambda, so it has the same winding number, and the number of times
+//! the annulus covers the origin, the difference of the two (all preimages count with one sign), is zero: the origin is
+//! never met. The map of the punctured plane to itself is a local homeomorphism that commutes with the scalings, hence a
+//! local homeomorphism of the quotients, which are tori. Of compact spaces this is a covering, with `|w|` sheets by its
+//! action on loops. If `|w|` is not 1 no injective extension exists, regular or not: the boundary would be a Jordan curve
+//! about the origin.
+//!
+//! **The winding number** without angles. Parts of the boundary curve of sector 0 are found each in one of the four open
+//! half-planes `x > 0`, `y > 0`, `x < 0`, `y < 0`, numbered by quarter turns. Consecutive parts share a point, so their
+//! half-planes differ by at most a quarter; c is the sum of these differences. Each end of the curve has an argument within
+//! a quarter turn of its half-plane's, so the change of argument lies in `(c/4 - 1/2, c/4 + 1/2)` turns. By rotation
+//! symmetry it is `k / N + j` for an integer j, of which that range holds at most one; the N sectors together wind
+//! `k + N j` times.
+
+use super::polynomial::halves;
+use super::{PlaneNet, Subdivision};
+use crate::{Enclose, Status};
+use eigenring_spectral::PatchIndex;
+use eigenring_spectral::bspline::to_bernstein;
+use serde::{Deserialize, Serialize};
+
+/// The parts of each boundary curve of sector 0, from the own spoke to the next, that lie in half-planes.
+pub type WindingEvidence = Vec<Subdivision>;
+
+/// What is known of the winding number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Winding {
+    /// Whether the map, given that it is regular, is injective. Refuted holds without that.
+    pub status: Status,
+    /// How often the outer boundary winds round the origin.
+    pub number: Option<i64>,
+    /// The parts of the boundary curve of one sector.
+    pub parts: usize,
+}
+
+/// A curve in the plane in Bernstein form: its coefficients as points.
+pub(super) type Curve<S> = [Vec<S>; 2];
+
+/// The outer boundary of sector 0 in order: along the sides `u = 1` of the patches at the far end of the own spoke, then back
+/// along the sides `v = 1` of those at the far end of the next.
+pub(super) fn boundary<S: Enclose>(net: &PlaneNet<S>) -> Vec<Curve<S>> {
+    let conversion = to_bernstein::<S>(net.annulus.degree);
+    let last = 2 * net.annulus.inner - 1;
+    let curve = |p: usize, q: usize, side: usize| -> Curve<S> {
+        let width = net.annulus.degree + 1;
+        let coordinates = net.coordinates(PatchIndex { sector: 0, p, q }, &conversion);
+        coordinates.map(|f| {
+            let c = f.coefficients();
+            if side == 0 {
+                c.iter().skip(width - 1).step_by(width).copied().collect()
+            } else {
+                c[width * (width - 1)..].iter().rev().copied().collect()
+            }
+        })
+    };
+    let up = (0..=last).map(|q| curve(last, q, 0));
+    let back = (0..=last).rev().map(|p| curve(p, last, 1));
+    up.chain(back).collect()
+}
+
+pub(super) fn cut<S: Enclose>([x, y]: &Curve<S>) -> Vec<Curve<S>> {
+    let ([x0, x1], [y0, y1]) = (halves(x), halves(y));
+    vec![[x0, y0], [x1, y1]]
+}
+
+/// The quarters for which a curve certainly lies in the half-plane around their direction.
+fn half_planes<S: Enclose>([x, y]: &Curve<S>) -> [bool; 4] {
+    let all = |values: &[S], positive: bool| {
+        values.iter().map(Enclose::enclosure).all(|c| {
+            if positive {
+                c.certainly_positive()
+            } else {
+                c.certainly_negative()
+            }
+        })
+    };
+    [all(x, true), all(y, true), all(x, false), all(y, false)]
+}
+
+/// Checks the claim.
+pub fn winding<S: Enclose>(net: &PlaneNet<S>, evidence: &WindingEvidence) -> Winding {
+    let mut parts = 0;
+    let number = quarters(net, evidence, &mut parts).and_then(|c| total(c, net.fourier, net.sectors()));
+    let status = match number {
+        Some(1 | -1) => Status::Proven,
+        Some(_) => Status::Refuted,
+        None => Status::Undecided,
+    };
+    Winding { status, number, parts }
+}
+
+/// The quarters by which the half-planes turn along the boundary of sector 0.
+fn quarters<S: Enclose>(net: &PlaneNet<S>, trees: &[Subdivision], parts: &mut usize) -> Option<i64> {
+    let curves = boundary(net);
+    if curves.len() != trees.len() {
+        return None;
+    }
+    let (mut turned, mut current, mut lost) = (0, None, false);
+    for (curve, tree) in curves.into_iter().zip(trees) {
+        let walk = tree.walk(curve, &cut, &mut |part| {
+            let open = half_planes(part);
+            // any choice will do; staying where possible makes few steps
+            let step = match current {
+                None => (0..4).find(|&at| open[at]),
+                Some(at) => [0, 1, 3].into_iter().find(|step| open[(at + step) % 4]),
+            };
+            match (step, current) {
+                (None, _) => lost = true,
+                (Some(at), None) => current = Some(at),
+                (Some(step), Some(at)) => {
+                    current = Some((at + step) % 4);
+                    turned += if step == 3 { -1 } else { step as i64 };
+                }
+            }
+        })?;
+        *parts += walk.cells;
+    }
+    (!lost).then_some(turned)
+}
+
+/// `k + n j` for the integer j with `c/4 - 1/2 < k/n + j < c/4 + 1/2`.
+fn total(c: i64, k: usize, n: usize) -> Option<i64> {
+    let (k, n) = (k as i64, n as i64);
+    // in units of 1/(4 n): |4 k + 4 n j - c n| < 2 n
+    let offset = c * n - 4 * k;
+    let below = offset.div_euclid(4 * n);
+    [below, below + 1]
+        .into_iter()
+        .find(|j| (4 * n * j - offset).abs() < 2 * n)
+        .map(|j| k + n * j)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::total;
+
+    #[test]
+    fn sectors_add_up_to_whole_turns() {
+        assert_eq!(total(0, 1, 5), Some(1));
+        assert_eq!(total(1, 1, 3), Some(1));
+        assert_eq!(total(0, 2, 5), Some(2));
+        // 4/5 of a turn within half a turn of zero is -1/5
+        assert_eq!(total(0, 4, 5), Some(-1));
+        assert_eq!(total(3, 4, 5), Some(4));
+        assert_eq!(total(-4, 1, 3), Some(-2));
+        // a half turn either way
+        assert_eq!(total(0, 2, 4), None);
+    }
+}
