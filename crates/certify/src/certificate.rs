@@ -1,0 +1,494 @@
+//! Certificates: making, checking, storing and checking again.
+//!
+//! A [`Certificate`] says of one exact scheme at one valence what was proven, refuted or left open, and keeps the evidence: the
+//! approximate eigenvectors and the subdivisions with which the proofs go through. [`certify`] makes one in two steps that
+//! share nothing but the problem: a search ([`find`](crate::find), [`map::find`](crate::map::find)), in doubles, and the checks, in
+//! intervals and exact arithmetic. [`recheck`] runs the checks alone, on a stored certificate, and compares what they say with what is
+//! claimed.
+//!
+//! The digest in a file shows that it was changed after it was written. It is no protection, and none is needed: every
+//! claim is proven anew from the scheme. Someone who changes claim and digest is told that the claim does not hold; someone who
+//! changes the scheme has the certificate of another scheme, which says so.
+
+use crate::conditions::{self, Facts, Subdominant};
+use crate::map::{self, CurvatureEvidence, Heights, JacobianEvidence, PlaneNet, Sign, WindingEvidence};
+use crate::rows;
+use crate::spectral::{self, Block, Spectrum};
+use crate::{Check, Error, Input, Interval, Status, Subject, Witness, find};
+use eigenring_spectral::Annulus;
+use serde::{Deserialize, Serialize};
+
+/// The format that this version reads and writes.
+pub const CERTIFICATE_VERSION: u32 = 1;
+
+/// What is known of a scheme at a valence, and why.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Certificate {
+    /// Version of the format, [`CERTIFICATE_VERSION`].
+    pub version: u32,
+    /// Version of the tool.
+    pub tool: String,
+    /// The exact scheme.
+    pub input: Input,
+    /// The valence.
+    pub valence: usize,
+    /// What was found.
+    pub evidence: Evidence,
+    /// What is claimed.
+    pub checks: Vec<Check>,
+    /// FNV-1a hash of everything else.
+    pub digest: String,
+}
+
+/// What a search found. None of it is believed.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Evidence {
+    /// For the eigenvalues.
+    pub spectrum: spectral::Evidence,
+    /// For the Jacobian of the characteristic map.
+    pub jacobian: Option<JacobianEvidence>,
+    /// For its winding number.
+    pub winding: Option<WindingEvidence>,
+    /// For the Gauss curvatures of the second-order maps: cup, then saddles.
+    pub curvature: Vec<CurvatureEvidence>,
+}
+
+/// Makes a certificate.
+///
+/// # Errors
+/// Those of the input; an open question is no error.
+pub fn certify(input: Input, valence: usize) -> Result<Certificate, Error> {
+    let subject = input.subject(valence)?;
+    let (annulus, blocks) = spectral::problem(&subject.scheme)?;
+    let mut evidence = Evidence {
+        spectrum: find::evidence(&blocks),
+        ..Evidence::default()
+    };
+    let proof = Proof::new(&subject, annulus, blocks, &evidence.spectrum)?;
+    if let Some(net) = &proof.net {
+        let limits = map::find::Limits::default();
+        evidence.jacobian = Some(map::find::jacobian(net, limits));
+        evidence.winding = Some(map::find::boundary(net, limits));
+        for (heights, sign) in &proof.heights {
+            evidence
+                .curvature
+                .push(map::find::curvature(net, heights, *sign, limits));
+        }
+    }
+    let checks = proof.finish(&evidence);
+    Ok(Certificate::new(input, valence, evidence, checks))
+}
+
+/// Runs the checks alone.
+///
+/// # Errors
+/// Those of the input.
+pub fn check(input: &Input, valence: usize, evidence: &Evidence) -> Result<Vec<Check>, Error> {
+    let subject = input.subject(valence)?;
+    let (annulus, blocks) = spectral::problem(&subject.scheme)?;
+    Ok(Proof::new(&subject, annulus, blocks, &evidence.spectrum)?.finish(evidence))
+}
+
+/// The checks, up to the point where the characteristic map is known.
+struct Proof<'a> {
+    subject: &'a Subject,
+    checks: Vec<Check>,
+    lambda: Option<Subdominant>,
+    net: Option<PlaneNet<Interval>>,
+    heights: Vec<(Heights<Interval>, Sign)>,
+}
+
+impl<'a> Proof<'a> {
+    fn new(
+        subject: &'a Subject,
+        annulus: Annulus,
+        blocks: Vec<Block>,
+        evidence: &spectral::Evidence,
+    ) -> Result<Self, Error> {
+        let row_sums = rows::row_sums(subject)?;
+        let affine = matches!(row_sums.status, Status::Proven | Status::Numerical);
+        let hull = rows::hull(subject)?;
+        let spectrum = Spectrum::new(annulus, blocks, evidence);
+        let mut facts = Facts::new(subject);
+        let dominant = conditions::dominant(&spectrum, affine);
+        let (subdominant, lambda) = conditions::subdominant(subject, &spectrum, &mut facts);
+        let mut checks = vec![row_sums, hull, dominant, subdominant];
+        let (mut net, mut heights) = (None, Vec::new());
+        match &lambda {
+            None => {
+                for name in ["bounded_curvature", "non_degenerate", "strict"] {
+                    checks.push(Check::undecided(name, "no subdominant eigenvalue was proven"));
+                }
+            }
+            Some(lambda) => {
+                checks.extend(conditions::second_order(subject, &spectrum, lambda, &mut facts));
+                net = characteristic(&spectrum, lambda);
+                if let Some(net) = &net {
+                    heights = second_order_maps(&spectrum, lambda, net);
+                }
+            }
+        }
+        Ok(Proof {
+            subject,
+            checks,
+            lambda,
+            net,
+            heights,
+        })
+    }
+
+    fn finish(mut self, evidence: &Evidence) -> Vec<Check> {
+        self.checks.extend(self.map_checks(evidence));
+        if self.subject.floating {
+            self.checks = self.checks.into_iter().map(Check::of_rounded_numbers).collect();
+        }
+        let place = |check: &Check| crate::NAMES.iter().position(|name| *name == check.name);
+        self.checks.sort_by_key(place);
+        self.checks
+    }
+
+    fn map_checks(&self, evidence: &Evidence) -> Vec<Check> {
+        let Some(net) = &self.net else {
+            let reason = match self.lambda {
+                None => "no subdominant eigenvalue was proven",
+                Some(_) => "the characteristic map could not be enclosed",
+            };
+            return ["regular", "injective", "corner", "gauss"]
+                .map(|name| Check::undecided(name, reason))
+                .into();
+        };
+        let (regular, injective) = (regular(net, evidence), injective(net, evidence));
+        // the winding number decides for regular maps
+        let injective = if injective.status == Status::Proven && regular.status != Status::Proven {
+            Check::undecided(
+                "injective",
+                "the boundary winds once, but the map is not proven regular",
+            )
+        } else {
+            injective
+        };
+        let mut checks = vec![regular, injective];
+        checks.extend(corner(net));
+        checks.push(self.gauss(net, evidence));
+        checks
+    }
+
+    fn gauss(&self, net: &PlaneNet<Interval>, evidence: &Evidence) -> Check {
+        const NAME: &str = "gauss";
+        if self.heights.len() != evidence.curvature.len() || self.heights.is_empty() {
+            return Check::undecided(NAME, "the second-order maps could not be enclosed");
+        }
+        let mut ranges = Vec::new();
+        for ((heights, sign), claim) in self.heights.iter().zip(&evidence.curvature) {
+            let Some(found) = map::curvature(net, heights, *sign, claim) else {
+                return Check::undecided(NAME, "the evidence does not fit");
+            };
+            ranges.extend(found.into_iter().map(|range| (range, *sign)));
+        }
+        let text = |sign: &Sign| match sign {
+            Sign::Positive => "cup: smallest Gauss curvature",
+            Sign::Negative => "saddle: largest Gauss curvature",
+        };
+        let wrong = ranges.iter().find(|(range, _)| range.status == Status::Refuted);
+        if let Some((range, sign)) = wrong {
+            let mut witness =
+                Witness::new(format!("{} is {}", text(sign), range.extreme.mid())).with("extreme", range.extreme);
+            if let Some(place) = range.place {
+                witness = located(witness, "", place);
+            }
+            return Check::refuted(NAME, witness).enclosing(range.extreme);
+        }
+        if ranges.iter().all(|(range, _)| range.status == Status::Proven) {
+            let margin = ranges
+                .iter()
+                .map(|(range, _)| range.extreme.mig())
+                .fold(f64::INFINITY, f64::min);
+            return Check::proven(NAME).margin(margin);
+        }
+        Check::undecided(NAME, "a sign is open")
+    }
+}
+
+fn parts(net: spectral::Net) -> [Vec<Interval>; 2] {
+    let (x, y) = net.into_iter().unzip();
+    [x, y]
+}
+
+fn characteristic(spectrum: &Spectrum, lambda: &Subdominant) -> Option<PlaneNet<Interval>> {
+    let entry = &spectrum.entries[lambda.position];
+    let net = spectrum.net(entry, lambda.value)?;
+    PlaneNet::new(spectrum.annulus, 1, true, parts(net)).ok()
+}
+
+/// The maps of the largest further eigenvalues of the blocks 0 and 2 (N = 3: of block 1 once more; N = 4: two of block 2).
+fn second_order_maps(
+    spectrum: &Spectrum,
+    lambda: &Subdominant,
+    net: &PlaneNet<Interval>,
+) -> Vec<(Heights<Interval>, Sign)> {
+    let n = net.sectors();
+    let largest = |index: usize, count: usize| {
+        let mut of_block: Vec<usize> = (0..spectrum.entries.len())
+            .filter(|&position| position != lambda.position && spectrum.entries[position].index == index)
+            .collect();
+        let modulus = |position: usize| spectrum.entries[position].value.modulus().mid();
+        of_block.sort_by(|&a, &b| modulus(b).total_cmp(&modulus(a)));
+        of_block.truncate(count);
+        of_block
+    };
+    let heights = |position: usize, sign: Sign| {
+        let entry = &spectrum.entries[position];
+        let [re, im] = parts(spectrum.net(entry, entry.value.re)?);
+        let zero = |part: &Vec<Interval>| part.iter().all(|z| z.is_zero());
+        let parts = match 2 * entry.index == n || entry.index == 0 {
+            // a mode of one sign pattern is real or imaginary as a whole
+            true if zero(&im) => vec![re],
+            true if zero(&re) => vec![im],
+            true => return None,
+            false => vec![re, im],
+        };
+        Some((Heights::new(net, entry.index, parts).ok()?, sign))
+    };
+    let saddles = match n {
+        3 => largest(1, 1),
+        4 => largest(2, 2),
+        _ => largest(2, 1),
+    };
+    let wanted = 1 + saddles.len();
+    let found: Vec<_> = largest(0, 1)
+        .into_iter()
+        .filter_map(|position| heights(position, Sign::Positive))
+        .chain(
+            saddles
+                .into_iter()
+                .filter_map(|position| heights(position, Sign::Negative)),
+        )
+        .collect();
+    if found.len() == wanted { found } else { Vec::new() }
+}
+
+fn located(witness: Witness, prefix: &str, place: map::Place) -> Witness {
+    let number = |x: usize| Interval::point(x as f64);
+    witness
+        .with(&format!("{prefix}sector"), number(place.sector))
+        .with(&format!("{prefix}p"), number(place.p))
+        .with(&format!("{prefix}q"), number(place.q))
+        .with(&format!("{prefix}u"), Interval::point(place.u))
+        .with(&format!("{prefix}v"), Interval::point(place.v))
+}
+
+fn regular(net: &PlaneNet<Interval>, evidence: &Evidence) -> Check {
+    const NAME: &str = "regular";
+    let Some(claim) = &evidence.jacobian else {
+        return Check::undecided(NAME, "no evidence");
+    };
+    let found = map::regular(net, claim);
+    let [smallest, largest] = found.jacobian;
+    match found.status {
+        Status::Proven => {
+            Check::proven(NAME)
+                .margin(found.margin())
+                .enclosing(if found.positive { smallest } else { largest })
+        }
+        Status::Refuted => {
+            let text = format!("the Jacobian takes the values {} and {}", smallest.mid(), largest.mid());
+            let mut witness = Witness::new(text).with("smallest", smallest).with("largest", largest);
+            if let Some([low, high]) = found.fold {
+                witness = located(located(witness, "smallest_", low), "largest_", high);
+            }
+            Check::refuted(NAME, witness).enclosing(smallest)
+        }
+        _ => Check::undecided(NAME, format!("{} parts, depth {}", found.cells, found.depth)),
+    }
+}
+
+fn injective(net: &PlaneNet<Interval>, evidence: &Evidence) -> Check {
+    const NAME: &str = "injective";
+    let Some(claim) = &evidence.winding else {
+        return Check::undecided(NAME, "no evidence");
+    };
+    let found = map::winding(net, claim);
+    match (found.status, found.number) {
+        (Status::Proven, _) => Check::proven(NAME).remark("the outer boundary winds once round the centre"),
+        (Status::Refuted, Some(number)) => {
+            let witness = Witness::new(format!("the outer boundary winds {number} times round the centre"));
+            Check::refuted(NAME, witness.with("winding", Interval::point(number as f64)))
+        }
+        _ => Check::undecided(NAME, format!("winding number open after {} parts", found.parts)),
+    }
+}
+
+fn corner(net: &PlaneNet<Interval>) -> Option<Check> {
+    const NAME: &str = "corner";
+    let found = map::corner(net)?;
+    let check = match found.within {
+        Status::Proven => Check::proven(NAME).margin((found.bound - found.theta).lo()),
+        Status::Refuted => {
+            let text = format!("theta is {}, its bound {}", found.theta.mid(), found.bound.mid());
+            Check::refuted(
+                NAME,
+                Witness::new(text).with("theta", found.theta).with("bound", found.bound),
+            )
+        }
+        _ => Check::undecided(NAME, format!("theta is {}, its bound {}", found.theta, found.bound)),
+    };
+    Some(check.enclosing(found.theta))
+}
+
+impl Certificate {
+    fn new(input: Input, valence: usize, evidence: Evidence, checks: Vec<Check>) -> Self {
+        let mut certificate = Certificate {
+            version: CERTIFICATE_VERSION,
+            tool: format!("eigenring {}", env!("CARGO_PKG_VERSION")),
+            input,
+            valence,
+            evidence,
+            checks,
+            digest: String::new(),
+        };
+        certificate.digest = certificate.content_digest();
+        certificate
+    }
+
+    /// The digest of everything but the digest.
+    pub fn content_digest(&self) -> String {
+        let bare = Certificate {
+            digest: String::new(),
+            ..self.clone()
+        };
+        digest(&bare)
+    }
+
+    /// The certificate as indented JSON.
+    ///
+    /// # Errors
+    /// [`Error::Syntax`] if a number is not finite, which no certificate of this crate has.
+    pub fn to_json(&self) -> Result<String, Error> {
+        to_json(self)
+    }
+
+    /// Reads a certificate. Its digest is not looked at here: [`recheck`] reports it.
+    ///
+    /// # Errors
+    /// [`Error::Version`] or [`Error::Syntax`].
+    pub fn from_json(text: &str) -> Result<Self, Error> {
+        from_json(text, CERTIFICATE_VERSION)
+    }
+
+    /// The check of a name.
+    pub fn check(&self, name: &str) -> Option<&Check> {
+        self.checks.iter().find(|check| check.name == name)
+    }
+}
+
+/// FNV-1a over compact JSON, as 16 hexadecimal digits.
+pub(crate) fn digest(value: &impl Serialize) -> String {
+    let text = serde_json::to_string(value).unwrap_or_default();
+    let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    });
+    format!("{hash:016x}")
+}
+
+pub(crate) fn to_json(value: &impl Serialize) -> Result<String, Error> {
+    let mut text = serde_json::to_string_pretty(value).map_err(syntax)?;
+    text.push('\n');
+    Ok(text)
+}
+
+pub(crate) fn from_json<T: for<'de> Deserialize<'de>>(text: &str, accepted: u32) -> Result<T, Error> {
+    /// Read before the rest, so that another format is named as such.
+    #[derive(Deserialize)]
+    struct Header {
+        version: u32,
+    }
+    let Header { version: found } = serde_json::from_str(text).map_err(syntax)?;
+    if found != accepted {
+        return Err(Error::Version { found, accepted });
+    }
+    serde_json::from_str(text).map_err(syntax)
+}
+
+fn syntax(error: serde_json::Error) -> Error {
+    Error::Syntax {
+        line: error.line(),
+        column: error.column(),
+        message: error.to_string(),
+    }
+}
+
+/// What checking a stored certificate again has shown.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Recheck {
+    /// Whether the digest is that of the content.
+    pub intact: bool,
+    /// What the checks say now.
+    pub checks: Vec<Check>,
+    /// Claims that the checks do not confirm: what is claimed, what was found, by name.
+    pub differences: Vec<Difference>,
+}
+
+/// A claim that was not confirmed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Difference {
+    /// The check.
+    pub name: String,
+    /// What the certificate says.
+    pub claimed: Option<Status>,
+    /// What the checks say.
+    pub found: Option<Status>,
+    /// What differs: the status, or a number or sentence beside it.
+    pub what: String,
+}
+
+impl Recheck {
+    /// Whether the certificate is unchanged and everything it claims was confirmed.
+    pub fn confirmed(&self) -> bool {
+        self.intact && self.differences.is_empty()
+    }
+}
+
+/// Checks a certificate again: its scheme and its evidence, with the checks alone.
+///
+/// # Errors
+/// Those of the input.
+pub fn recheck(certificate: &Certificate) -> Result<Recheck, Error> {
+    let checks = check(&certificate.input, certificate.valence, &certificate.evidence)?;
+    let named = |list: &[Check], name: &str| list.iter().find(|check| check.name == name).cloned();
+    let mut differences = Vec::new();
+    for name in crate::NAMES {
+        let (claimed, found) = (named(&certificate.checks, name), named(&checks, name));
+        if claimed == found {
+            continue;
+        }
+        let status = |check: &Option<Check>| check.as_ref().map(|check| check.status);
+        let what = if status(&claimed) == status(&found) {
+            "details"
+        } else {
+            "status"
+        };
+        differences.push(Difference {
+            name: name.to_owned(),
+            claimed: status(&claimed),
+            found: status(&found),
+            what: what.to_owned(),
+        });
+    }
+    let unknown = certificate
+        .checks
+        .iter()
+        .filter(|check| !crate::NAMES.contains(&check.name.as_str()));
+    differences.extend(unknown.map(|check| Difference {
+        name: check.name.clone(),
+        claimed: Some(check.status),
+        found: None,
+        what: "no such check".to_owned(),
+    }));
+    Ok(Recheck {
+        intact: certificate.digest == certificate.content_digest(),
+        checks,
+        differences,
+    })
+}

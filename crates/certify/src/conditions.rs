@@ -1,0 +1,472 @@
+//! Statements about eigenvalues.
+//!
+//! With the eigenvalues `1 > lambda = lambda > ...` of the local matrix on all rings that determine the patches:
+//!
+//! | check | statement | source |
+//! |---|---|---|
+//! | `dominant` | 1 is simple, all others lie inside the unit disc | convergence (Reif 1995) |
+//! | `subdominant` | lambda is real and positive, simple in the blocks of index 1 and N-1, and larger in modulus than all others | Peters and Reif 1998, *Analysis of algorithms generalizing B-spline subdivision* |
+//! | `bounded_curvature` | all others have a modulus of at most `lambda^2`, with equality only for values without Jordan block | Doo and Sabin 1978; Peters and Reif 2008, *Subdivision Surfaces*, section 7 |
+//! | `non_degenerate` | `lambda^2` is an eigenvalue in the blocks 0, 2 and N-2: curvatures have a limit that is not zero | Prautzsch and Umlauf; Ma, Wang and Ma 2023 |
+//! | `strict` | all eigenvalues after these three are smaller in modulus | Ma, Wang and Ma 2023, Eq. 26 |
+//!
+//! At N = 3 index 2 is index N-1, and the second value of block 1 takes its part; at N = 4 both saddles are in block 2.
+//! Inequalities are decided by enclosures, equalities exactly ([`Facts`]).
+
+use crate::exact::{self, Field, Poly, block_polynomial};
+use crate::linear::Eigenvalue;
+use crate::spectral::{Entry, Place, Spectrum};
+use crate::{Check, Interval, Subject, Witness};
+use std::collections::BTreeMap;
+
+/// The subdominant eigenvalue.
+#[derive(Clone, Copy, Debug)]
+pub struct Subdominant {
+    /// Its position among the entries of the spectrum.
+    pub position: usize,
+    /// Its sharpest enclosure.
+    pub value: Interval,
+}
+
+/// `dominant`; `affine` says whether 1 is known to be an eigenvalue with the constant vector.
+pub fn dominant(spectrum: &Spectrum, affine: bool) -> Check {
+    const NAME: &str = "dominant";
+    if !affine {
+        return Check::undecided(NAME, "rows are not known to sum to 1");
+    }
+    let one = Interval::point(1.0);
+    let outside = spectrum
+        .entries
+        .iter()
+        .find(|entry| one.certainly_le(entry.value.modulus()));
+    if let Some(entry) = outside {
+        let text = format!(
+            "an eigenvalue of block {} has modulus {}",
+            entry.index,
+            entry.value.modulus().mid()
+        );
+        return Check::refuted(NAME, named(Witness::new(text), entry));
+    }
+    let Some((modulus, index)) = spectrum.largest_other(&[]) else {
+        return Check::undecided(NAME, "no eigenvalues");
+    };
+    let margin = (one - modulus).lo();
+    if margin > 0.0 {
+        Check::proven(NAME).margin(margin).enclosing(modulus)
+    } else {
+        Check::undecided(
+            NAME,
+            format!("block {index}: an eigenvalue of modulus up to {}", modulus.hi()),
+        )
+    }
+}
+
+fn named(witness: Witness, entry: &Entry) -> Witness {
+    witness.with("re", entry.value.re).with("im", entry.value.im)
+}
+
+/// `subdominant`, and the eigenvalue if it was proven.
+pub fn subdominant(subject: &Subject, spectrum: &Spectrum, facts: &mut Facts) -> (Check, Option<Subdominant>) {
+    const NAME: &str = "subdominant";
+    let open = |text: String| (Check::undecided(NAME, text), None);
+    let refuted = |witness: Witness| (Check::refuted(NAME, witness), None);
+    match spectrum.block(1).map(|block| &block.place) {
+        Some(Place::Real(_)) => {}
+        Some(_) => return open("the rules have no mirror symmetry: real eigenvalues are not told from others".into()),
+        None => return open("the rules differ from sector to sector".into()),
+    }
+    let of_index_1 = |&(_, entry): &(usize, &Entry)| entry.index == 1;
+    let entries = || spectrum.entries.iter().enumerate();
+    let Some((position, leading)) = entries()
+        .filter(of_index_1)
+        .max_by(|a, b| a.1.value.modulus().mid().total_cmp(&b.1.value.modulus().mid()))
+    else {
+        return open("no eigenvalue of block 1 was enclosed".into());
+    };
+    let mut value = leading.value.re;
+    if let Some(identities) = subject.identities {
+        value = value.intersect(identities.lambda).unwrap_or(value);
+    }
+    let modulus = if leading.value.is_real() {
+        value.abs()
+    } else {
+        leading.value.modulus()
+    };
+    let beside = |index: usize| move |entry: &&Entry| entry.index == index;
+    // larger than all of block 1, wherever it is
+    let reach = entries()
+        .filter(of_index_1)
+        .map(|(_, entry)| entry.value.modulus().hi())
+        .chain(
+            spectrum
+                .bounds
+                .iter()
+                .filter(|bound| bound.index == 1)
+                .map(|bound| bound.radius),
+        )
+        .fold(0.0, f64::max);
+    let larger = spectrum
+        .entries
+        .iter()
+        .filter(|entry| entry.index != 1 && entry.value.modulus().lo() > reach);
+    if let Some(entry) = larger.max_by(|a, b| a.value.modulus().lo().total_cmp(&b.value.modulus().lo())) {
+        let text = format!(
+            "an eigenvalue of block {} has modulus {}, block 1 has none above {reach}",
+            entry.index,
+            entry.value.modulus().mid()
+        );
+        return refuted(named(Witness::new(text), entry).with("fourier", Interval::point(entry.index as f64)));
+    }
+    let others = spectrum.largest_other(&[position]);
+    let (other, index) = others.unwrap_or((Interval::point(0.0), 0));
+    let within = spectrum
+        .entries
+        .iter()
+        .enumerate()
+        .filter(|(other, entry)| *other != position && beside(1)(entry))
+        .map(|(_, entry)| entry.value.modulus())
+        .chain(
+            spectrum
+                .bounds
+                .iter()
+                .filter(|bound| bound.index == 1)
+                .map(|bound| Interval::new(0.0, bound.radius).unwrap_or(Interval::ENTIRE)),
+        );
+    let leads_block = within.map(Interval::hi).fold(0.0, f64::max) < modulus.lo();
+    if leads_block && leading.value.is_real() && value.certainly_negative() {
+        let text = format!("the largest eigenvalue of block 1 is {}, not positive", value.mid());
+        return refuted(named(Witness::new(text), leading));
+    }
+    let conjugate = leading.value.im.certainly_nonzero();
+    if conjugate && other.hi() <= modulus.hi() {
+        let text = format!(
+            "the largest eigenvalues of block 1 are {} +- {} i",
+            leading.value.re.mid(),
+            leading.value.im.mid().abs()
+        );
+        return refuted(named(Witness::new(text), leading));
+    }
+    if !leading.value.is_real() || !value.certainly_positive() {
+        return open(format!(
+            "the largest eigenvalue of block 1 is not known to be real and positive: {value}"
+        ));
+    }
+    if !other.certainly_lt(value) {
+        if index == 1 && facts.repeated(spectrum, 1, value) == Some(true) {
+            let text = format!(
+                "{} is a repeated eigenvalue of block 1: outer rings share it",
+                value.mid()
+            );
+            return refuted(named(Witness::new(text), leading));
+        }
+        return open(format!(
+            "block {index} has an eigenvalue of modulus up to {}, lambda is {value}",
+            other.hi()
+        ));
+    }
+    let margin = (Interval::point(1.0) - other / value).lo();
+    let check = Check::proven(NAME).margin(margin).enclosing(value);
+    (check, Some(Subdominant { position, value }))
+}
+
+/// Equalities, decided exactly: whether `lambda^2` is an eigenvalue of a block.
+pub struct Facts<'a> {
+    subject: &'a Subject,
+    field: Option<Field>,
+    polynomials: BTreeMap<(usize, usize), Option<Poly>>,
+}
+
+impl<'a> Facts<'a> {
+    /// The facts of a subject. Polynomials are worked out when they are asked for.
+    pub fn new(subject: &'a Subject) -> Self {
+        Facts {
+            subject,
+            field: None,
+            polynomials: BTreeMap::new(),
+        }
+    }
+
+    fn polynomial(&mut self, index: usize, rings: usize) -> Option<(&Field, Poly)> {
+        let exact = self.subject.exact.as_ref()?;
+        let field = self.field.get_or_insert_with(|| Field::new(exact.valence()));
+        let known = self
+            .polynomials
+            .entry((index, rings))
+            .or_insert_with(|| block_polynomial(field, &exact.limit, rings, index));
+        Some((&*field, known.clone()?))
+    }
+
+    /// Whether the square of lambda, an eigenvalue of block 1 that no other of the block comes near, is an eigenvalue of a block.
+    fn square_in(&mut self, index: usize, lambda: Interval) -> Option<bool> {
+        let valence = self.subject.scheme.valence();
+        if let Some(identities) = self.subject.identities {
+            let second_order = if valence == 3 {
+                index <= 1
+            } else {
+                index == 0 || index == 2
+            };
+            return (second_order && identities.square).then_some(true);
+        }
+        let rings = self.subject.scheme.closed_rings().ok()?;
+        let (_, first) = self.polynomial(1, rings)?;
+        let (field, second) = self.polynomial(index, rings)?;
+        exact::square_is_root(field, &first, &second, lambda)
+    }
+
+    /// Whether `lambda^2`, an eigenvalue of a block, is a repeated one there.
+    fn square_is_double(&mut self, index: usize, lambda: Interval) -> bool {
+        if self.subject.identities.is_some() {
+            // block 2 at valence 4 is diagonal with the entries g3 = mu and f3 = mu
+            return true;
+        }
+        let Ok(rings) = self.subject.scheme.closed_rings() else {
+            return false;
+        };
+        let polynomial = self.polynomial(index, rings);
+        polynomial.and_then(|(field, f)| exact::is_repeated(field, &f, lambda.square())) == Some(true)
+    }
+
+    /// Whether an eigenvalue of a block on one ring more than the smallest net is repeated there. Every entry of the block
+    /// that meets the interval must be meant by it.
+    fn repeated(&mut self, spectrum: &Spectrum, index: usize, value: Interval) -> Option<bool> {
+        let rings = self.subject.scheme.closed_rings().ok()? + 1;
+        let near = spectrum
+            .entries
+            .iter()
+            .filter(|e| e.index == index && !e.value.re.disjoint(value));
+        let hull = near.fold(value, |hull, entry| hull.hull(entry.value.re));
+        let (field, polynomial) = self.polynomial(index, rings)?;
+        exact::is_repeated(field, &polynomial, hull)
+    }
+}
+
+/// The eigenvalues that are exactly `lambda^2`: their positions among the entries, and the Fourier indices that have them.
+struct Squares {
+    positions: Vec<usize>,
+    indices: Vec<usize>,
+    /// An index for which it could not be decided.
+    open: Option<usize>,
+}
+
+fn squares(valence: usize, spectrum: &Spectrum, lambda: &Subdominant, facts: &mut Facts) -> Squares {
+    let square = lambda.value.square();
+    let mut found = Squares {
+        positions: Vec::new(),
+        indices: Vec::new(),
+        open: None,
+    };
+    for block in &spectrum.blocks {
+        let near: Vec<usize> = spectrum
+            .entries
+            .iter()
+            .enumerate()
+            .filter(|(position, e)| *position != lambda.position && e.index == block.index)
+            .filter(|(_, e)| !(e.value.re.disjoint(square) || e.value.im.certainly_nonzero()))
+            .map(|(position, _)| position)
+            .collect();
+        if near.is_empty() {
+            continue;
+        }
+        match (facts.square_in(block.index, lambda.value), near.len()) {
+            (Some(false), _) => {}
+            (Some(true), 1) => {
+                found.positions.extend(near);
+                found.indices.push(block.index);
+            }
+            // both saddles of valence 4 lie in block 2: without Jordan block if neither component reads the other
+            (Some(true), 2)
+                if valence == 4 && block.index == 2 && {
+                    let (a, b) = (spectrum.entries[near[0]].component, spectrum.entries[near[1]].component);
+                    let apart = a != b && !block.reads[a].contains(&b) && !block.reads[b].contains(&a);
+                    apart && facts.square_is_double(block.index, lambda.value)
+                } =>
+            {
+                found.positions.extend(near);
+                found.indices.push(block.index);
+            }
+            _ => found.open = Some(block.index),
+        }
+    }
+    found
+}
+
+/// `bounded_curvature`, `non_degenerate` and `strict`.
+pub fn second_order(subject: &Subject, spectrum: &Spectrum, lambda: &Subdominant, facts: &mut Facts) -> [Check; 3] {
+    let valence = subject.scheme.valence();
+    let squares = squares(valence, spectrum, lambda, facts);
+    [
+        bounded(spectrum, lambda, &squares),
+        non_degenerate(valence, spectrum, lambda, &squares),
+        strict(subject, spectrum, lambda, &squares),
+    ]
+}
+
+fn bounded(spectrum: &Spectrum, lambda: &Subdominant, squares: &Squares) -> Check {
+    const NAME: &str = "bounded_curvature";
+    let square = lambda.value.square();
+    let ratio = |entry: &Entry| entry.value.modulus() / square;
+    let others = || {
+        let all = spectrum.entries.iter().enumerate();
+        all.filter(|(position, _)| *position != lambda.position)
+            .map(|(_, entry)| entry)
+    };
+    let largest = others().max_by(|a, b| a.value.modulus().lo().total_cmp(&b.value.modulus().lo()));
+    if let Some(entry) = largest.filter(|entry| square.certainly_lt(entry.value.modulus())) {
+        let text = format!(
+            "an eigenvalue of block {} is {} lambda^2: mu = {}, lambda = {}",
+            entry.index,
+            ratio(entry).mid(),
+            entry.value.modulus().mid(),
+            lambda.value.mid()
+        );
+        let witness = named(Witness::new(text), entry)
+            .with("ratio", ratio(entry))
+            .with("lambda", lambda.value);
+        return Check::refuted(NAME, witness).enclosing(ratio(entry));
+    }
+    let except: Vec<usize> = squares.positions.iter().copied().chain([lambda.position]).collect();
+    let Some((modulus, index)) = spectrum.largest_other(&except) else {
+        return Check::undecided(NAME, "no further eigenvalues");
+    };
+    if !modulus.certainly_le(square) {
+        return Check::undecided(
+            NAME,
+            format!(
+                "block {index} has an eigenvalue of modulus up to {}, lambda^2 is {square}",
+                modulus.hi()
+            ),
+        );
+    }
+    let (enclosure, margin) = if squares.positions.is_empty() {
+        let ratio = modulus / square;
+        (ratio, (Interval::point(1.0) - ratio).lo())
+    } else {
+        (Interval::point(1.0), 0.0)
+    };
+    Check::proven(NAME).margin(margin).enclosing(enclosure)
+}
+
+/// The indices, at most N/2, of the blocks in which the three second-order eigenvalues lie.
+fn second_order_indices(valence: usize) -> [usize; 2] {
+    if valence == 3 { [0, 1] } else { [0, 2] }
+}
+
+fn non_degenerate(valence: usize, spectrum: &Spectrum, lambda: &Subdominant, squares: &Squares) -> Check {
+    const NAME: &str = "non_degenerate";
+    let square = lambda.value.square();
+    for index in second_order_indices(valence) {
+        let others = spectrum.entries.iter().enumerate();
+        let mut in_block: Vec<&Entry> = others
+            .filter(|(position, e)| *position != lambda.position && e.index == index)
+            .map(|(_, entry)| entry)
+            .collect();
+        in_block.sort_by(|a, b| b.value.modulus().mid().total_cmp(&a.value.modulus().mid()));
+        let bounded_below = spectrum
+            .bounds
+            .iter()
+            .all(|b| b.index != index || b.radius <= square.lo());
+        let candidates = in_block.iter().filter(|e| !e.value.re.disjoint(square)).count();
+        let wanted = if valence == 4 && index == 2 { 2 } else { 1 };
+        let decided_false = !squares.indices.contains(&index) && squares.open != Some(index);
+        if candidates < wanted && bounded_below || decided_false && candidates == 0 {
+            let nearest = in_block
+                .get(wanted - 1)
+                .map(|e| e.value.re)
+                .unwrap_or(Interval::point(0.0));
+            let ratio = nearest / square;
+            let text = format!("block {index}: mu is {} lambda^2", ratio.mid());
+            return Check::refuted(NAME, Witness::new(text).with("mu", nearest).with("ratio", ratio)).enclosing(ratio);
+        }
+        if decided_false {
+            let text = format!("block {index}: in exact arithmetic lambda^2 is not an eigenvalue");
+            return Check::refuted(NAME, Witness::new(text).with("lambda", lambda.value));
+        }
+        if !squares.indices.contains(&index) {
+            return Check::undecided(
+                NAME,
+                format!("block {index}: equality with lambda^2 = {square} is not decided"),
+            );
+        }
+    }
+    Check::proven(NAME)
+        .enclosing(square)
+        .remark("eigenvalue lambda^2 in the blocks of index 0, 2 and N-2")
+}
+
+fn strict(subject: &Subject, spectrum: &Spectrum, lambda: &Subdominant, squares: &Squares) -> Check {
+    const NAME: &str = "strict";
+    let valence = subject.scheme.valence();
+    let sharp = |position: usize| -> Eigenvalue {
+        let value = spectrum.entries[position].value;
+        let known = if squares.positions.contains(&position) {
+            lambda.value.square()
+        } else {
+            subject.identities.map_or(Interval::ENTIRE, |identities| identities.mu)
+        };
+        value.re.intersect(known).map_or(value, |re| Eigenvalue { re, ..value })
+    };
+    // the three second-order eigenvalues: the largest of their blocks
+    let mut chosen = vec![lambda.position];
+    let mut mu: Option<Interval> = None;
+    for index in second_order_indices(valence) {
+        let wanted = if valence == 4 && index == 2 { 2 } else { 1 };
+        for _ in 0..wanted {
+            let entries = spectrum.entries.iter().enumerate();
+            let next = entries
+                .filter(|(position, entry)| entry.index == index && !chosen.contains(position))
+                .max_by(|a, b| a.1.value.modulus().mid().total_cmp(&b.1.value.modulus().mid()));
+            let Some((position, entry)) = next.filter(|(_, entry)| entry.value.is_real()) else {
+                return Check::undecided(
+                    NAME,
+                    format!("block {index} has no second-order eigenvalue that is proven to be real"),
+                );
+            };
+            chosen.push(position);
+            // identities hold for the second-order values only; elsewhere intersect() finds nothing in common
+            let value = if entry
+                .value
+                .re
+                .disjoint(subject.identities.map_or(entry.value.re, |i| i.mu))
+            {
+                entry.value.re
+            } else {
+                sharp(position).re
+            };
+            mu = Some(mu.map_or(value.abs(), |mu| mu.min(value.abs())));
+        }
+    }
+    let Some(mu) = mu else {
+        return Check::undecided(NAME, "no second-order eigenvalues");
+    };
+    let Some((other, index)) = spectrum.largest_other(&chosen) else {
+        return Check::undecided(NAME, "no further eigenvalues");
+    };
+    let ratio = other / mu;
+    let larger = spectrum
+        .entries
+        .iter()
+        .enumerate()
+        .find(|(position, entry)| !chosen.contains(position) && entry.value.modulus().lo() > mu.hi());
+    if let Some((_, entry)) = larger {
+        let text = format!(
+            "an eigenvalue of block {} has modulus {}, mu is {}",
+            entry.index,
+            entry.value.modulus().mid(),
+            mu.mid()
+        );
+        return Check::refuted(NAME, named(Witness::new(text), entry).with("mu", mu))
+            .enclosing(entry.value.modulus() / mu);
+    }
+    if !other.certainly_lt(mu) {
+        return Check::undecided(
+            NAME,
+            format!(
+                "block {index} has an eigenvalue of modulus up to {}, mu is {mu}",
+                other.hi()
+            ),
+        );
+    }
+    Check::proven(NAME)
+        .margin((Interval::point(1.0) - ratio).lo())
+        .enclosing(ratio)
+}

@@ -1,0 +1,67 @@
+//! What can be wrong with what is handed in. An open question is no error: it is an undecided check.
+
+/// Errors of this crate.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// From the rules: a valence, a parameter or a file that is not accepted.
+    #[error(transparent)]
+    Scheme(#[from] eigenring_scheme::Error),
+    /// From running the rules.
+    #[error(transparent)]
+    Spectral(#[from] eigenring_spectral::Error),
+    /// A number that is not finite.
+    #[error("{what} = {value} is not a finite number: accepted are finite numbers")]
+    NotFinite {
+        /// Which number.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// The net is too large to be certified.
+    #[error("the local matrix has blocks of {size} unknowns: accepted are at most {maximum}")]
+    Size {
+        /// Unknowns of the largest block.
+        size: usize,
+        /// Largest accepted number.
+        maximum: usize,
+    },
+    /// A range of lambda that is empty or leaves the tabulated domain.
+    #[error("lambda range {start}..{end}: accepted are {lower} <= A < B <= {upper}")]
+    Range {
+        /// Its start.
+        start: f64,
+        /// Its end.
+        end: f64,
+        /// Smallest accepted start.
+        lower: f64,
+        /// Largest accepted end.
+        upper: f64,
+    },
+    /// A requirement that is not known.
+    #[error("requirement '{name}' is not known: accepted are {accepted}")]
+    Requirement {
+        /// What was asked for.
+        name: String,
+        /// Accepted names.
+        accepted: String,
+    },
+    /// A certificate that is not JSON or not of this structure.
+    #[error("certificate: line {line}, column {column}: {message}")]
+    Syntax {
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// What was expected there.
+        message: String,
+    },
+    /// A certificate of another format.
+    #[error("certificate: format version {found}: accepted is {accepted}")]
+    Version {
+        /// The file's version.
+        found: u32,
+        /// The version of this program.
+        accepted: u32,
+    },
+}

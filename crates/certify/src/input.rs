@@ -1,0 +1,239 @@
+//! What is certified: an exact scheme.
+//!
+//! A certificate speaks of a scheme in real numbers. What those are must be said without rounding, so an [`Input`] consists
+//! of names, of doubles (each the rational number it represents) and of the text of a scheme file, whose decimals and fractions are
+//! taken as written. A stencil that somebody computed in doubles is another matter: it approximates a scheme that is not
+//! given, and everything said of it is [numerical](crate::Status::Numerical).
+//!
+//! [`Subject`] is an input at one valence, made ready for proofs: the rules with interval weights, the same with exact ones
+//! where these exist, and for the lambda-scheme the equalities that its closed forms give ([`Identities`]).
+
+use crate::exact::Weight;
+use crate::{Error, Interval};
+use eigenring_scheme::lambda::{LambdaTable, Plane, Relaxation};
+use eigenring_scheme::user::UserScheme;
+use eigenring_scheme::{OneRing, Scalar, Scheme, Spec};
+use serde::{Deserialize, Serialize};
+
+/// A scheme, exactly; see the module page.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Input {
+    /// A family with rational or cyclotomic constants, by its spec: Catmull-Clark, Doo-Sabin, tension.
+    Family {
+        /// The spec.
+        spec: String,
+    },
+    /// The lambda-scheme at the numbers that these doubles are.
+    Lambda {
+        /// The subdominant eigenvalue.
+        lambda: f64,
+        /// The relaxation `mu / lambda^2`.
+        s: f64,
+        /// Weight of the edge neighbours in the face rule.
+        f2: f64,
+        /// Weight of the face point in the face rule; `None` means `mu` itself, as valence 4 demands.
+        f3: Option<f64>,
+    },
+    /// A scheme file.
+    Toml {
+        /// Its text.
+        text: String,
+        /// The name used if the text gives none.
+        name: String,
+    },
+    /// One-ring weights that were computed in doubles.
+    Floating {
+        /// f1, f2, f3, d1, d2, e1, e2, alpha, beta.
+        weights: [f64; 9],
+    },
+}
+
+impl Input {
+    /// The input of a spec. For the lambda-scheme the weights are looked up here, so that the input does not depend on the table.
+    ///
+    /// # Errors
+    /// Those of the spec: parameters out of range, a valence that is not tabulated.
+    pub fn from_spec(spec: &Spec, valence: usize) -> Result<Self, Error> {
+        let (lambda, s, weights) = match *spec {
+            Spec::LambdaOptimal => (LambdaTable::embedded()?.entry(valence)?.lambda_optimal, None, None),
+            Spec::Lambda { lambda, s, weights } => (lambda, s, weights),
+            _ => return Ok(Input::Family { spec: spec.to_string() }),
+        };
+        let s = match s {
+            Some(s) => s,
+            None => Relaxation::new(valence)?.s(lambda)?,
+        };
+        let (f2, f3) = match weights {
+            Some((f2, f3)) => (f2, Some(f3)),
+            None => {
+                let (f2, f3) = LambdaTable::embedded()?.entry(valence)?.weights(lambda)?;
+                // tabulated weights at valence 4 have f3 = mu, which a double can only come near
+                (f2, (valence != 4).then_some(f3))
+            }
+        };
+        Ok(Input::Lambda { lambda, s, f2, f3 })
+    }
+
+    /// The input of one-ring weights in doubles.
+    pub fn floating(weights: OneRing<f64>) -> Self {
+        Input::Floating {
+            weights: weights.named().map(|(_, weight)| weight),
+        }
+    }
+
+    /// The scheme's name.
+    pub fn name(&self) -> String {
+        match self {
+            Input::Family { spec } => spec.clone(),
+            Input::Lambda { lambda, s, f2, f3 } => match f3 {
+                Some(f3) => format!("lambda:lambda={lambda},f2={f2},f3={f3},s={s}"),
+                None => format!("lambda:lambda={lambda},f2={f2},f3=mu,s={s}"),
+            },
+            Input::Toml { text, name } => {
+                UserScheme::parse(text, name).map_or_else(|_| name.clone(), |scheme| scheme.name().to_owned())
+            }
+            Input::Floating { .. } => "one-ring weights in doubles".to_owned(),
+        }
+    }
+
+    /// The scheme at a valence.
+    ///
+    /// # Errors
+    /// Those of the rules; [`Error::NotFinite`].
+    pub fn subject(&self, valence: usize) -> Result<Subject, Error> {
+        match self {
+            Input::Family { spec } => {
+                let spec: Spec = spec.parse()?;
+                Ok(Subject {
+                    scheme: spec.scheme(valence)?,
+                    exact: Some(spec.scheme(valence)?),
+                    identities: None,
+                    floating: false,
+                })
+            }
+            &Input::Lambda { lambda, s, f2, f3 } => lambda_subject(valence, lambda, s, f2, f3),
+            Input::Toml { text, name } => {
+                let file = UserScheme::parse(text, name)?;
+                let (mut scheme, mut exact) = (file.scheme::<Interval>(valence)?, file.scheme::<Weight>(valence)?);
+                // the file's reader compares doubles; here the symmetry must hold exactly
+                let distance = |weight: Weight| f64::from(weight != Weight::zero());
+                let mirror = scheme.limit.mirror && exact.limit.is_mirror_symmetric(0.0, distance);
+                (scheme.limit.mirror, exact.limit.mirror) = (mirror, mirror);
+                Ok(Subject {
+                    scheme,
+                    exact: Some(exact),
+                    identities: None,
+                    floating: false,
+                })
+            }
+            Input::Floating { weights } => {
+                let [f1, f2, f3, d1, d2, e1, e2, alpha, beta] = *weights;
+                let weights = OneRing {
+                    f1,
+                    f2,
+                    f3,
+                    d1,
+                    d2,
+                    e1,
+                    e2,
+                    alpha,
+                    beta,
+                };
+                for (what, value) in weights.named() {
+                    if !value.is_finite() {
+                        return Err(Error::NotFinite { what, value });
+                    }
+                }
+                let scheme = weights.map(Interval::point).scheme(self.name(), valence)?;
+                Ok(Subject {
+                    scheme,
+                    exact: None,
+                    identities: None,
+                    floating: true,
+                })
+            }
+        }
+    }
+}
+
+/// A scheme at one valence, ready for proofs.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    /// The rules with enclosures of the weights.
+    pub scheme: Scheme<Interval>,
+    /// The rules with exact weights, where there are any.
+    pub exact: Option<Scheme<Weight>>,
+    /// Equalities that hold by construction.
+    pub identities: Option<Identities>,
+    /// Whether the weights are results of rounding.
+    pub floating: bool,
+}
+
+/// Equalities of the lambda-scheme (Ma, Wang and Ma 2023), which its closed forms give at all parameters, whether
+/// admissible or not.
+///
+/// Let `p_k(x) = x^2 - T_k x + f3 g3` with `T_k = g3 + f3 + h (1 + c_k)`: the characteristic polynomial of block k != 0 on
+/// (E, F), for all one-ring stencils in the generalised Catmull-Clark form. In the notation of
+/// [`Plane`] with `sg = s lambda` and `mu = sg lambda`, for arbitrary numbers c1, c2:
+///
+/// ```text
+/// p_1(lambda) = (lambda - f3)(lambda - g3) - h (1 + c1) lambda = 0
+/// p_2(mu)     = (mu - f3)(mu - g3)         - h (1 + c2) mu     = 0
+/// ```
+///
+/// Multiplied by the denominator `C - D f3` these are polynomial identities of degree at most 5 in lambda and 2 in s, f3, c1
+/// and c2; the tests evaluate them in rational arithmetic on a grid with more points than that in every direction, which proves
+/// them. In block 0 on (E - V, F - V), `det(x - S_0)` without its factor `x - 1` is
+///
+/// ```text
+/// p_0(x) + beta [ 2 f2 + phi h f3/f2 - (g3 + 2h - x + phi (f3 - x)) ]
+/// ```
+///
+/// (expand; the terms in `beta^2` cancel). At `x = mu`, `p_0(mu) = p_2(mu) - h (1 - c2) mu = -h (1 - c2) mu`, so that the value
+/// is zero exactly for the beta of [`Plane`]. Row sums are `f1 + 2 f2 + f3 = 1`, hence
+/// `d1 + d2 + 2 e1 + 2 e2 = g1 + g3 + 2 g2 (f1 + 2 f2 + f3) = 1`. At valence 4 all this holds for `f3 = mu`, where g3 and h are
+/// given by continuation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Identities {
+    /// An eigenvalue of block 1.
+    pub lambda: Interval,
+    /// An eigenvalue of blocks 0 and 2 (at valence 3 of block 1; at valence 4 twice in block 2).
+    pub mu: Interval,
+    /// Whether `mu = lambda^2`, that is `s = 1`.
+    pub square: bool,
+}
+
+fn lambda_subject(valence: usize, lambda: f64, s: f64, f2: f64, f3: Option<f64>) -> Result<Subject, Error> {
+    // the accepted ranges of lambda and s are those of the plane
+    let rough = Plane::new(valence, lambda, s)?;
+    for (what, value) in [("f2", f2), ("f3", f3.unwrap_or(0.0))] {
+        if !value.is_finite() {
+            return Err(Error::NotFinite { what, value });
+        }
+    }
+    let plane = Plane {
+        valence,
+        lambda: Interval::point(lambda),
+        s: Interval::point(s),
+        phi: Interval::point(rough.phi),
+    };
+    let mu = plane.mu();
+    // at valence 4 block 2 is diagonal with f3 as one entry, and the closed forms hold for f3 = mu only
+    let holds = match f3 {
+        None => true,
+        Some(f3) => valence != 4 || mu.is_point() && mu.contains(f3),
+    };
+    let stencil = plane.stencil(Interval::point(f2), f3.map_or(mu, Interval::point));
+    let name = Input::Lambda { lambda, s, f2, f3 }.name();
+    Ok(Subject {
+        scheme: stencil.weights.scheme(name, valence)?,
+        exact: None,
+        identities: holds.then_some(Identities {
+            lambda: plane.lambda,
+            mu,
+            square: s == 1.0,
+        }),
+        floating: false,
+    })
+}

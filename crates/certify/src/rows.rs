@@ -1,0 +1,178 @@
+//! Statements about weights: affine invariance and the convex hull property.
+//!
+//! Both are read off the rows of the refinement itself, whatever passes it is made of: a refined point is affinely invariant if
+//! the weights of control points in it sum to 1, and in the convex hull if they are not negative. Beyond the rings with
+//! special stencils every row is one of the four regular ones, so that a few more rings than those show all rows.
+
+use crate::exact::{Field, row_sum_defect};
+use crate::{Check, Error, Interval, Subject, Witness};
+use eigenring_scheme::{Error as SchemeError, Net, Scalar, Site, refine};
+use std::collections::BTreeMap;
+
+/// Rings of which all rows are looked at: special ones, closed ones and two more for the regular rules.
+fn sites(subject: &Subject) -> Result<Vec<Site>, Error> {
+    let scheme = &subject.scheme;
+    let rings = scheme.special_rings()?.unwrap_or(0).max(scheme.closed_rings()?) + 2;
+    let numbering = scheme.numbering(rings);
+    if !scheme.limit.symmetric {
+        return Ok(numbering.sites());
+    }
+    let centre = (numbering.lattice.parity() == 0).then_some(Site::CENTRE);
+    Ok(centre.into_iter().chain(numbering.sector_sites(0)).collect())
+}
+
+/// `row_sums`: all rows sum to 1.
+///
+/// # Errors
+/// Those of running the rules.
+pub fn row_sums(subject: &Subject) -> Result<Check, Error> {
+    const NAME: &str = "row_sums";
+    let sites = sites(subject)?;
+    if subject.identities.is_some() || !subject.floating && subject.exact.is_none() {
+        return Ok(Check::proven(NAME)
+            .enclosing(Interval::point(0.0))
+            .remark("f1 + 2 f2 + f3 = 1 and g1 + 2 g2 + g3 = 1 by construction"));
+    }
+    let exact = subject.exact.as_ref().and_then(|exact| {
+        let field = Field::new(exact.valence());
+        row_sum_defect(&field, &exact.limit, &sites)
+    });
+    if let Some(defects) = exact {
+        let wrong = sites.iter().zip(&defects).filter_map(|(site, defect)| match defect {
+            Some((false, by)) => Some((site, *by)),
+            _ => None,
+        });
+        let worst = wrong.max_by(|a, b| a.1.mag().total_cmp(&b.1.mag()));
+        if let Some((site, by)) = worst {
+            let text = format!(
+                "the weights of refined point ({}, {}) of sector {} sum to 1 + {}",
+                site.x,
+                site.y,
+                site.sector,
+                by.mid()
+            );
+            return Ok(Check::refuted(NAME, Witness::new(text).with("defect", by)).enclosing(by));
+        }
+        if defects.iter().all(Option::is_some) {
+            return Ok(Check::proven(NAME)
+                .enclosing(Interval::point(0.0))
+                .remark("in exact arithmetic"));
+        }
+    }
+    // rounded weights, or exact ones that do not fit: the defect is enclosed
+    let sums = refine(&subject.scheme.limit, &OneNet, &sites)?;
+    let one = Interval::point(1.0);
+    let (site, worst) = sites
+        .iter()
+        .zip(sums)
+        .map(|(site, sum)| (site, sum - one))
+        .max_by(|a, b| a.1.mag().total_cmp(&b.1.mag()))
+        .unwrap_or((&Site::CENTRE, Interval::point(0.0)));
+    if !subject.floating && worst.certainly_nonzero() {
+        let text = format!("the weights of refined point ({}, {}) do not sum to 1", site.x, site.y);
+        return Ok(Check::refuted(NAME, Witness::new(text).with("defect", worst)).enclosing(worst));
+    }
+    let text = format!("sums differ from 1 by at most {:e}", worst.mag());
+    if subject.floating && worst.mag() <= ROUNDING {
+        return Ok(Check::proven(NAME).enclosing(worst).remark(text).of_rounded_numbers());
+    }
+    if subject.floating {
+        let witness = Witness::new(format!("{text}, more than rounding explains")).with("defect", worst);
+        return Ok(Check::refuted(NAME, witness).enclosing(worst));
+    }
+    Ok(Check::undecided(NAME, text).enclosing(worst))
+}
+
+/// Weights that were rounded one by one have sums that differ from 1 by less: half a unit in the last place of each of 1000
+/// weights below 1, with room for the rounding of their own computation.
+const ROUNDING: f64 = 1e-12;
+
+/// `hull`: no weight is negative.
+///
+/// # Errors
+/// Those of running the rules.
+pub fn hull(subject: &Subject) -> Result<Check, Error> {
+    const NAME: &str = "hull";
+    let sites = sites(subject)?;
+    let rows = refine(&subject.scheme.limit, &WeightNet, &sites)?;
+    let mut smallest: Option<(Site, Site, Interval)> = None;
+    for (&target, row) in sites.iter().zip(&rows) {
+        for (&source, &weight) in row {
+            if smallest.is_none_or(|(_, _, least)| weight.lo() < least.lo()) {
+                smallest = Some((target, source, weight));
+            }
+        }
+    }
+    let Some((target, source, weight)) = smallest else {
+        return Ok(Check::undecided(NAME, "no weights"));
+    };
+    let place = format!(
+        "({}, {}) of sector {} in refined point ({}, {})",
+        source.x, source.y, source.sector, target.x, target.y
+    );
+    let check = if weight.lo() >= 0.0 {
+        Check::proven(NAME).margin(weight.lo())
+    } else if weight.certainly_negative() {
+        let text = format!("the weight of control point {place} is {}", weight.mid());
+        Check::refuted(NAME, Witness::new(text).with("weight", weight)).margin(weight.hi())
+    } else {
+        Check::undecided(
+            NAME,
+            format!("the weight of control point {place} may be zero or negative"),
+        )
+    };
+    let check = check.enclosing(weight);
+    Ok(if subject.floating {
+        check.of_rounded_numbers()
+    } else {
+        check
+    })
+}
+
+/// Every point is 1.
+struct OneNet;
+
+impl Net<Interval> for OneNet {
+    type Value = Interval;
+
+    fn zero(&self) -> Interval {
+        Interval::point(0.0)
+    }
+
+    fn control(&self, _site: Site) -> Result<Interval, SchemeError> {
+        Ok(Interval::one())
+    }
+
+    fn orbit(&self, site: Site) -> Site {
+        site
+    }
+
+    fn accumulate(&self, sum: &mut Interval, weight: Interval, at_orbit: &Interval, _site: Site) {
+        *sum += weight * *at_orbit;
+    }
+}
+
+/// A point's value is its row: the weights of the control points in it.
+struct WeightNet;
+
+impl Net<Interval> for WeightNet {
+    type Value = BTreeMap<Site, Interval>;
+
+    fn zero(&self) -> Self::Value {
+        BTreeMap::new()
+    }
+
+    fn control(&self, site: Site) -> Result<Self::Value, SchemeError> {
+        Ok(BTreeMap::from([(site, Interval::one())]))
+    }
+
+    fn orbit(&self, site: Site) -> Site {
+        site
+    }
+
+    fn accumulate(&self, sum: &mut Self::Value, weight: Interval, at_orbit: &Self::Value, _site: Site) {
+        for (&site, &value) in at_orbit {
+            *sum.entry(site).or_insert(Interval::point(0.0)) += weight * value;
+        }
+    }
+}

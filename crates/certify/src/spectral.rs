@@ -1,0 +1,150 @@
+//! Enclosures of the whole spectrum of a scheme, and of the vectors that belong to it.
+//!
+//! The matrix whose eigenvalues decide is the local matrix on all rings that determine the patches of the regular
+//! [`Annulus`](eigenring_spectral::Annulus), not the smallest closed one: outer rings have eigenvalues of their own, and one that equals
+//! lambda makes it defective. It is taken apart before anything is enclosed:
+//!
+//! 1. into Fourier [`Block`]s, real where the rules have mirror symmetry; block N-k is the conjugate of block k;
+//! 2. block 0 is divided by the constant vector, whose eigenvalue 1 is exact where rows sum to 1 exactly;
+//! 3. each block into the strongly connected components of its graph, with entries that are **exactly** zero as missing
+//!    edges: its eigenvalues are those of the diagonal parts ([`graph`]);
+//! 4. each component by dividing out simple real eigenpairs one after the other, with closed forms for the last two and a
+//!    bound of the moduli where pairs cannot be told apart ([`component`]).
+//!
+//! Every eigenvalue is accounted for: by an enclosure, or as one of so many below a radius.
+
+mod block;
+mod component;
+mod graph;
+mod map;
+
+pub use block::{Block, Place, blocks};
+pub use component::{Located, Peel, Rest, enclose};
+pub use map::{Net, eigenvector, net};
+
+use crate::linear::Eigenvalue;
+use crate::{Error, Input, Interval};
+use eigenring_spectral::Annulus;
+use serde::{Deserialize, Serialize};
+
+/// Approximations found by a search: for each block and component, how it comes apart.
+pub type Evidence = Vec<Vec<Peel>>;
+
+/// The enclosed spectrum.
+#[derive(Clone, Debug)]
+pub struct Spectrum {
+    /// Where the patches are, and their control points.
+    pub annulus: Annulus,
+    /// The blocks of index 0 to N/2, or the undivided matrix as the only one.
+    pub blocks: Vec<Block>,
+    /// The eigenvalues of all blocks.
+    pub entries: Vec<Entry>,
+    /// What is only known in modulus.
+    pub bounds: Vec<Bound>,
+}
+
+/// An eigenvalue: one of the block of its index, and one of the conjugate block.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// The Fourier index, at most N/2.
+    pub index: usize,
+    /// The component of the block.
+    pub component: usize,
+    /// The value.
+    pub value: Eigenvalue,
+    /// The eigenvector on the unknowns of the component, for a simple real value.
+    pub vector: Option<Vec<Interval>>,
+}
+
+/// Eigenvalues that are known by a bound of their moduli.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Bound {
+    /// The Fourier index.
+    pub index: usize,
+    /// How many.
+    pub count: usize,
+    /// Their moduli are below this.
+    pub radius: f64,
+}
+
+impl Spectrum {
+    /// The spectrum of a subject's blocks, with the help of evidence. Evidence that is missing or wrong leaves wide bounds.
+    pub fn new(annulus: Annulus, blocks: Vec<Block>, evidence: &Evidence) -> Self {
+        let (mut entries, mut bounds) = (Vec::new(), Vec::new());
+        let none = Peel::default();
+        for (position, block) in blocks.iter().enumerate() {
+            for component in 0..block.components.len() {
+                let peel = evidence
+                    .get(position)
+                    .and_then(|peels| peels.get(component))
+                    .unwrap_or(&none);
+                let (located, rest) = enclose(&block.part(component), peel);
+                entries.extend(located.into_iter().map(|Located { value, vector }| Entry {
+                    index: block.index,
+                    component,
+                    value,
+                    vector,
+                }));
+                bounds.extend(rest.map(|(count, radius)| Bound {
+                    index: block.index,
+                    count,
+                    radius,
+                }));
+            }
+        }
+        Spectrum {
+            annulus,
+            blocks,
+            entries,
+            bounds,
+        }
+    }
+
+    /// The largest modulus that anything but the entries with the given positions can have, and where.
+    pub fn largest_other(&self, except: &[usize]) -> Option<(Interval, usize)> {
+        let entries = self
+            .entries
+            .iter()
+            .enumerate()
+            .filter(|(position, _)| !except.contains(position));
+        let moduli = entries.map(|(_, entry)| (entry.value.modulus(), entry.index));
+        let bounds = self.bounds.iter().map(|bound| {
+            let modulus = Interval::new(0.0, bound.radius).unwrap_or(Interval::ENTIRE);
+            (modulus, bound.index)
+        });
+        moduli.chain(bounds).max_by(|a, b| a.0.hi().total_cmp(&b.0.hi()))
+    }
+
+    /// The block of an index.
+    pub fn block(&self, index: usize) -> Option<&Block> {
+        self.blocks.iter().find(|block| block.index == index)
+    }
+}
+
+/// The annulus of a scheme and the blocks of the matrix that determines it.
+///
+/// # Errors
+/// [`Error::Spectral`] if the rules cannot be run, [`Error::Size`] beyond [`MAX_BLOCK`] unknowns.
+pub fn problem(scheme: &eigenring_scheme::Scheme<Interval>) -> Result<(Annulus, Vec<Block>), Error> {
+    let annulus = Annulus::new(scheme)?;
+    let rings = annulus.numbering.rings.max(scheme.closed_rings()?);
+    let annulus = Annulus {
+        numbering: scheme.numbering(rings),
+        ..annulus
+    };
+    Ok((annulus, blocks(&scheme.limit, rings)?))
+}
+
+/// The largest number of unknowns of a block. The scheme of order 32 needs 552; matrices are dense.
+pub const MAX_BLOCK: usize = 600;
+
+/// The blocks of an input at a valence.
+///
+/// # Errors
+/// As [`problem`], and those of the input.
+pub fn problem_of(input: &Input, valence: usize) -> Result<(Annulus, Vec<Block>), Error> {
+    problem(&input.subject(valence)?.scheme)
+}
+
+#[cfg(test)]
+mod tests;

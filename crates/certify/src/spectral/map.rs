@@ -1,0 +1,115 @@
+//! Eigenvectors on all rings, and the nets they are.
+
+use super::{Block, Entry, Place, Spectrum};
+use crate::Interval;
+use crate::linear::solve;
+use eigenring_scheme::{Complex, Numbering, Scalar, Site};
+use eigenring_spectral::Matrix;
+
+/// A net in the complex plane: real and imaginary part of each point of the numbering.
+pub type Net = Vec<Complex<Interval>>;
+
+/// The eigenvector of a simple real eigenvalue on all unknowns of its block; `None` if another component of the block that
+/// depends on it was not proven to be free of the eigenvalue.
+///
+/// On components that do not read the entry's own one the vector is zero; on those that do, in their order, it is the
+/// solution of `(value - S_dd) v_d = sum_e S_de v_e` over the components e before d. `value` may be a sharper enclosure of the
+/// entry's eigenvalue.
+pub fn eigenvector(block: &Block, entry: &Entry, value: Interval) -> Option<Vec<Interval>> {
+    let zero = Interval::point(0.0);
+    let mut vector = vec![zero; block.matrix.rows()];
+    for (&unknown, &x) in block.components[entry.component].iter().zip(entry.vector.as_ref()?) {
+        vector[unknown] = x;
+    }
+    for (component, members) in block.components.iter().enumerate() {
+        if !block.reads[component].contains(&entry.component) {
+            continue;
+        }
+        let right: Vec<Interval> = members
+            .iter()
+            .map(|&i| block.matrix.row(i).iter().zip(&vector).map(|(&s, &v)| s * v).sum())
+            .collect();
+        let shifted = Matrix::from_fn(members.len(), members.len(), |i, j| {
+            let shift = if i == j { value } else { zero };
+            shift - block.matrix[(members[i], members[j])]
+        });
+        let part = match &right[..] {
+            [single] if shifted[(0, 0)].certainly_nonzero() => vec![*single / shifted[(0, 0)]],
+            _ => solve(&shifted, &right)?,
+        };
+        for (&unknown, x) in members.iter().zip(part) {
+            vector[unknown] = x;
+        }
+    }
+    match &block.place {
+        Place::Real(None) => Some(vector),
+        Place::Real(Some(constant)) => {
+            // the constant vector was divided out: S (0, y) = value (0, y) + t c, so that y + t/(value - 1) c is the vector
+            vector.insert(0, zero);
+            let excess: Interval = block.whole.row(0).iter().zip(&vector).map(|(&s, &v)| s * v).sum();
+            let gap = value - Interval::point(1.0);
+            if !gap.certainly_nonzero() {
+                return None;
+            }
+            let factor = excess / gap;
+            for (x, &one) in vector.iter_mut().zip(constant) {
+                if one {
+                    *x += factor;
+                }
+            }
+            Some(vector)
+        }
+        Place::Parts | Place::Points => None,
+    }
+}
+
+/// The net of real unknowns of Fourier index `index`: points of a spoke have the value r, points of the diagonal
+/// `w^{k/2} r`, pairs `w^{k/2} (p + i q)` and `w^{k/2} (p - i q)`, each times `w^{k (sector - turn/2)}`. With `turn = 1` the
+/// first point around a face is real.
+pub fn net<S: Scalar>(numbering: Numbering, index: usize, unknowns: &[S], turn: usize) -> Vec<Complex<S>> {
+    let n = numbering.fan.sectors();
+    let first = unknowns.len() - numbering.sector_points();
+    let half_phases: Vec<Complex<S>> = (0..2 * n)
+        .map(|j| {
+            let (k, n) = ((index * j) as i64, 2 * n as i64);
+            (S::cos_turn(k, n), S::sin_turn(k, n))
+        })
+        .collect();
+    let unknown = |x: i32, y: i32| {
+        let site = Site { sector: 0, x, y };
+        // a point of the numbering has its orbit in sector 0
+        numbering
+            .index_in_sector(site)
+            .map_or(S::zero(), |column| unknowns[first + column])
+    };
+    let value = |site: Site| {
+        if site == Site::CENTRE {
+            let value = if first == 1 { unknowns[0] } else { S::zero() };
+            return (value, S::zero());
+        }
+        let (turns, p, q) = match site.x.cmp(&site.y) {
+            _ if site.y == 0 => (0, unknown(site.x, 0), S::zero()),
+            std::cmp::Ordering::Equal => (1, unknown(site.x, site.y), S::zero()),
+            std::cmp::Ordering::Greater => (1, unknown(site.x, site.y), unknown(site.y, site.x)),
+            std::cmp::Ordering::Less => (1, unknown(site.y, site.x), -unknown(site.x, site.y)),
+        };
+        let phase = half_phases[(2 * (n + site.sector) + turns - turn) % (2 * n)];
+        (phase.0 * p - phase.1 * q, phase.0 * q + phase.1 * p)
+    };
+    numbering.sites().into_iter().map(value).collect()
+}
+
+impl Spectrum {
+    /// The net of an entry on the numbering of the annulus, with the given enclosure of its eigenvalue: the first point of
+    /// ring 1 is real, and positive where it is not zero.
+    pub fn net(&self, entry: &Entry, value: Interval) -> Option<Net> {
+        let block = self.block(entry.index)?;
+        let unknowns = eigenvector(block, entry, value)?;
+        let numbering = self.annulus.numbering;
+        let first = *unknowns.get(unknowns.len() - numbering.sector_points())?;
+        let sign = if first.certainly_negative() { -1.0 } else { 1.0 };
+        let unknowns: Vec<Interval> = unknowns.into_iter().map(|x| Interval::point(sign) * x).collect();
+        let turn = numbering.lattice.parity() as usize;
+        Some(net(numbering, entry.index, &unknowns, turn))
+    }
+}
