@@ -59,7 +59,7 @@ impl Interval {
     /// The interval of the given bounds, or `None` where they are no interval (NaN, or in the wrong order).
     pub fn new(lo: f64, hi: f64) -> Option<Self> {
         let proper = lo <= hi && lo < f64::INFINITY && hi > f64::NEG_INFINITY;
-        proper.then(|| Interval {
+        proper.then_some(Interval {
             lo: lo + 0.0,
             hi: hi + 0.0,
         })

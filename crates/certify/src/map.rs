@@ -22,6 +22,7 @@ mod corner;
 pub mod find;
 mod gauss;
 mod polynomial;
+mod product;
 mod regular;
 mod subdivision;
 mod winding;
@@ -29,6 +30,7 @@ mod winding;
 pub use corner::{Corner, corner};
 pub use gauss::{CurvatureEvidence, CurvatureRange, Heights, Sign, curvature};
 pub use polynomial::{Polynomial, Scaled};
+pub use product::Coefficient;
 pub use regular::{JacobianEvidence, Regularity, regular};
 pub use subdivision::{MAX_DEPTH, Subdivision};
 pub use winding::{Winding, WindingEvidence, winding};
@@ -174,7 +176,7 @@ impl<S: Enclose> PlaneNet<S> {
     }
 }
 
-impl<S: Scalar> PlaneNet<S> {
+impl<S: Coefficient> PlaneNet<S> {
     /// Where the patches are.
     pub fn annulus(&self) -> &Annulus {
         &self.annulus

@@ -16,11 +16,12 @@
 //! wider than derivatives over the range: for a product `a b - a(m) b(m) = (a - a(m)) b + a(m) (b - b(m))`.
 
 use crate::Interval;
+use crate::map::Coefficient;
 use eigenring_scheme::{Dual, Scalar};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A scalar of a proof: whatever it carries, it knows an interval that holds its value.
-pub trait Enclose: Scalar {
+pub trait Enclose: Coefficient {
     /// An interval that holds every value the number can have.
     fn enclosure(&self) -> Interval;
 
@@ -129,7 +130,6 @@ impl<const D: usize> Sub for Centred<D> {
 
 impl<const D: usize> Mul for Centred<D> {
     type Output = Self;
-    #[expect(clippy::suspicious_arithmetic_impl, reason = "the product rule adds")]
     fn mul(self, other: Self) -> Self {
         let slopes = self.slopes_with(&other, |s, t| s * other.range + self.central * t);
         Self::sharpened(self.central * other.central, slopes, self.range * other.range)
@@ -138,10 +138,6 @@ impl<const D: usize> Mul for Centred<D> {
 
 impl<const D: usize> Div for Centred<D> {
     type Output = Self;
-    #[expect(
-        clippy::suspicious_arithmetic_impl,
-        reason = "the quotient rule subtracts and multiplies"
-    )]
     fn div(self, other: Self) -> Self {
         let central = self.central / other.central;
         let slopes = self.slopes_with(&other, |s, t| (s - central * t) / other.range);

@@ -52,10 +52,6 @@ impl Mul for Interval {
 
 impl Div for Interval {
     type Output = Self;
-    #[expect(
-        clippy::suspicious_arithmetic_impl,
-        reason = "a quotient by negative numbers is turned round"
-    )]
     fn div(self, other: Self) -> Self {
         if other.contains_zero() {
             return Self::ENTIRE;

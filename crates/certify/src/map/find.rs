@@ -237,23 +237,22 @@ pub fn curvature<S: Enclose>(net: &PlaneNet<S>, heights: &Heights<S>, sign: Sign
                 let values: Vec<f64> = corners.iter().map(|c| c[corner]).collect();
                 look(&mut best, patch, &values, at);
             }
-            let mut smallest = vec![f64::INFINITY; best.len()];
             let mut values = vec![0.0; forms.len()];
-            for index in 0..forms[0].coefficients().len() {
+            let sharp = (0..forms[0].coefficients().len()).all(|index| {
                 for (value, form) in values.iter_mut().zip(forms) {
                     *value = form.coefficients()[index];
                 }
-                for (smallest, (value, _)) in smallest.iter_mut().zip(worst(&values[1..])) {
-                    let bound = if values[0] > 0.0 {
-                        value / values[0]
-                    } else {
-                        f64::NEG_INFINITY
-                    };
-                    *smallest = smallest.min(bound);
-                }
-            }
-            let near = |(&bound, &(best, _)): (&f64, &(f64, Place))| bound >= best - limits.tolerance * best.abs();
-            let sharp = smallest.iter().zip(&best).all(near);
+                let near = |value: f64, &(best, _): &(f64, Place)| {
+                    values[0] > 0.0 && value / values[0] >= best - limits.tolerance * best.abs()
+                };
+                // a bound for all phases is enough for most coefficients
+                let any = sign.times(values[1]) - values[2..].iter().fold(0.0, |sum: f64, p| sum.hypot(*p));
+                best.iter().all(|best| near(any, best))
+                    || worst(&values[1..])
+                        .iter()
+                        .zip(&best)
+                        .all(|(&(value, _), best)| near(value, best))
+            });
             !sharp && depth < limits.depth && examined < limits.cells
         });
         trees.push(tree);

@@ -29,7 +29,7 @@
 //! factor `|x|^4 / |z|^2`. On the image of the annulus under m scalings, K has the same sign.
 
 use super::regular::between;
-use super::{NetError, Place, PlaneNet, Polynomial, Scaled, Subdivision, check_symmetry};
+use super::{Coefficient, NetError, Place, PlaneNet, Polynomial, Scaled, Subdivision, check_symmetry};
 use crate::{Enclose, Interval, Status};
 use eigenring_scheme::Scalar;
 use eigenring_spectral::PatchIndex;
@@ -58,7 +58,8 @@ pub enum Sign {
 pub struct CurvatureEvidence {
     /// The parts of each of [`PlaneNet::patches`] whose coefficients give the bound.
     pub patches: Vec<Subdivision>,
-    /// For each map a place where the curvature is nearest to the wrong sign, or has it.
+    /// For each map a place, on one of these patches or its image in another sector, where the curvature is nearest to the
+    /// wrong sign, or has it.
     pub places: Vec<Place>,
 }
 
@@ -158,7 +159,7 @@ impl<S> Heights<S> {
 }
 
 /// The polynomials of one patch, of equal degrees: `J^4`, then K for one map or `P_0, P_1, P_2` for a pair.
-pub(super) fn forms<S: Scalar>(net: &PlaneNet<S>, heights: &Heights<S>, patch: PatchIndex) -> Vec<Polynomial<S>> {
+pub(super) fn forms<S: Coefficient>(net: &PlaneNet<S>, heights: &Heights<S>, patch: PatchIndex) -> Vec<Polynomial<S>> {
     let conversion = to_bernstein::<S>(net.annulus.degree);
     let scaled = |f: Polynomial<S>| f.scaled();
     let [x, y] = net.coordinates(patch, &conversion);
@@ -202,7 +203,7 @@ pub(super) fn forms<S: Scalar>(net: &PlaneNet<S>, heights: &Heights<S>, patch: P
 }
 
 pub(super) fn cut<S: Scalar>(part: &Vec<Polynomial<S>>) -> Vec<Vec<Polynomial<S>>> {
-    let mut pieces = vec![Vec::with_capacity(part.len()); 4];
+    let mut pieces = vec![Vec::new(); 4];
     for polynomial in part {
         for (piece, quarter) in pieces.iter_mut().zip(polynomial.quarters()) {
             piece.push(quarter);
@@ -224,19 +225,28 @@ pub fn curvature<S: Enclose>(
     }
     let check = Check {
         sign,
+        sectors: net.sectors(),
         phases: phases(heights, net.sectors()),
     };
+    let forms: Vec<_> = patches.iter().map(|&patch| forms(net, heights, patch)).collect();
     // bounds of the extreme from inside: values at places, times the sign
     let mut inner = Vec::new();
     for (part, place) in evidence.places.iter().enumerate() {
-        inner.push(check.value(net, heights, part, *place)?.hi());
+        let patch = PatchIndex {
+            sector: 0,
+            ..place.patch(&net.annulus)?
+        };
+        let at = patches.iter().position(|&known| known == patch)?;
+        inner.push(
+            check
+                .value(&forms[at], part, heights.phase(place.sector, net.sectors()), *place)?
+                .hi(),
+        );
     }
     let mut floor: Vec<f64> = inner.clone();
     let (mut cells, mut depth) = (0, 0);
-    for (patch, tree) in patches.into_iter().zip(&evidence.patches) {
-        let walk = tree.walk(forms(net, heights, patch), &cut, &mut |part| {
-            check.lower(part, &mut floor)
-        })?;
+    for (forms, tree) in forms.into_iter().zip(&evidence.patches) {
+        let walk = tree.walk(forms, &cut, &mut |part| check.lower(part, &mut floor))?;
         cells += walk.cells;
         depth = depth.max(walk.depth);
     }
@@ -278,23 +288,13 @@ fn phases<S>(heights: &Heights<S>, sectors: usize) -> Vec<(Interval, Interval)> 
 
 struct Check {
     sign: Sign,
+    sectors: usize,
     phases: Vec<(Interval, Interval)>,
 }
 
 impl Check {
-    /// the curvature times the sign of a map at a place, `None` for no place of the annulus.
-    fn value<S: Enclose>(
-        &self,
-        net: &PlaneNet<S>,
-        heights: &Heights<S>,
-        part: usize,
-        place: Place,
-    ) -> Option<Interval> {
-        let patch = PatchIndex {
-            sector: 0,
-            ..place.patch(&net.annulus)?
-        };
-        let forms = forms(net, heights, patch);
+    /// The curvature times the sign of a map at a place of a patch, in a sector of the given phase.
+    fn value<S: Enclose>(&self, forms: &[Polynomial<S>], part: usize, phase: usize, place: Place) -> Option<Interval> {
         let values: Vec<Interval> = forms
             .iter()
             .map(|f| f.value(S::exact(place.u), S::exact(place.v)).enclosure())
@@ -302,8 +302,7 @@ impl Check {
         let numerator = match values[1..] {
             [single] => single,
             [p0, p1, p2] => {
-                let sectors = net.sectors();
-                let (cos, sin) = super::turn(heights.phase(place.sector, sectors), sectors);
+                let (cos, sin) = super::turn(phase, self.sectors);
                 let varying = p1 * cos - p2 * sin;
                 if part == 0 { p0 + varying } else { p0 - varying }
             }
@@ -329,17 +328,16 @@ impl Check {
                 floor[0] = quotients.fold(floor[0], f64::min);
             }
             [p0, p1, p2] => {
-                let rows = || (0..weights.len()).map(|i| (self.sign.times(p0[i]), p1[i], p2[i], weights[i]));
-                let lowest = floor.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-                let mut in_any_phase = rows().map(|(a, b, c, w)| (a - (b.square() + c.square()).sqrt()) / w);
-                if in_any_phase.all(|bound| bound.lo() >= lowest) {
-                    return;
-                }
-                for &(cos, sin) in &self.phases {
-                    for (a, b, c, w) in rows() {
+                for (i, &weight) in weights.iter().enumerate() {
+                    let (mean, b, c) = (self.sign.times(p0[i]), p1[i], p2[i]);
+                    let in_any_phase = ((mean - (b.square() + c.square()).sqrt()) / weight).lo();
+                    if floor.iter().all(|&floor| in_any_phase >= floor) {
+                        continue;
+                    }
+                    for &(cos, sin) in &self.phases {
                         let varying = self.sign.times(b * cos - c * sin);
-                        floor[0] = floor[0].min(((a + varying) / w).lo());
-                        floor[1] = floor[1].min(((a - varying) / w).lo());
+                        floor[0] = floor[0].min(((mean + varying) / weight).lo());
+                        floor[1] = floor[1].min(((mean - varying) / weight).lo());
                     }
                 }
             }

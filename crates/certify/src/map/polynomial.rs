@@ -7,6 +7,7 @@
 //! Coefficients are stored with `i` (the degree in u) running fastest. With `b_ij` scaled by the binomials
 //! `C(m, i) C(n, j)` a product is a convolution (Farouki and Rajan 1988).
 
+use super::Coefficient;
 use eigenring_scheme::Scalar;
 
 /// A polynomial in Bernstein form, see the module page.
@@ -187,8 +188,8 @@ impl<S: Scalar> Polynomial<S> {
 /// A polynomial with its coefficients scaled by binomials, in which products are cheap.
 #[derive(Clone, Debug)]
 pub struct Scaled<S> {
-    degree: [usize; 2],
-    coefficients: Vec<S>,
+    pub(super) degree: [usize; 2],
+    pub(super) coefficients: Vec<S>,
 }
 
 impl<S: Scalar> Scaled<S> {
@@ -200,24 +201,11 @@ impl<S: Scalar> Scaled<S> {
     }
 
     /// The product.
-    pub fn product(&self, other: &Self) -> Self {
-        let ([m, n], [p, q]) = (self.degree, other.degree);
-        let width = m + p + 1;
-        let mut coefficients = vec![S::zero(); width * (n + q + 1)];
-        for (j, row) in self.coefficients.chunks(m + 1).enumerate() {
-            for (l, other_row) in other.coefficients.chunks(p + 1).enumerate() {
-                let sums = &mut coefficients[(j + l) * width..][..width];
-                for (i, &a) in row.iter().enumerate() {
-                    for (sum, &b) in sums[i..].iter_mut().zip(other_row) {
-                        *sum += a * b;
-                    }
-                }
-            }
-        }
-        Scaled {
-            degree: [m + p, n + q],
-            coefficients,
-        }
+    pub fn product(&self, other: &Self) -> Self
+    where
+        S: Coefficient,
+    {
+        S::product(self, other)
     }
 
     fn zip(&self, other: &Self, f: impl Fn(S, S) -> S) -> Self {

@@ -529,35 +529,3 @@ fn evidence_reads_back() {
     let text = serde_json::to_string(&result).unwrap();
     assert_eq!(serde_json::from_str::<Regularity>(&text).unwrap(), result);
 }
-
-#[test]
-#[ignore = "timing"]
-fn timing() {
-    for valence in [3, 5, 12, 64] {
-        let scheme = catmull_clark::<f64>(valence).unwrap();
-        let maps = Maps::on(&scheme, Annulus::at_least(&scheme, 2).unwrap()).unwrap();
-        let t = std::time::Instant::now();
-        let net = PlaneNet::new(maps.annulus, 1, true, maps.natural.each_ref().map(|part| widened(part))).unwrap();
-        println!("N {valence} net {:?}", t.elapsed());
-        let limits = Limits::default();
-        let t = std::time::Instant::now();
-        let e = find::jacobian(&net, limits);
-        println!(" find J {:?}", t.elapsed());
-        let t = std::time::Instant::now();
-        let r = regular(&net, &e);
-        println!(" check J {:?} margin {}", t.elapsed(), r.margin());
-        let t = std::time::Instant::now();
-        let w = winding(&net, &find::boundary(&net, limits));
-        println!(" winding {:?} {w:?}", t.elapsed());
-        for tolerance in [0.1, 0.01, 0.001] {
-        for (sign, heights) in heights(&net, &maps) {
-            let t = std::time::Instant::now();
-            let e = find::curvature(&net, &heights, sign, Limits { tolerance, ..limits });
-            let a = t.elapsed();
-            let t = std::time::Instant::now();
-            let r = curvature(&net, &heights, sign, &e).unwrap();
-            println!(" K {tolerance} find {a:?} check {:?} cells {} {:?}", t.elapsed(), r[0].cells, r.iter().map(|r| r.extreme).collect::<Vec<_>>());
-        }
-        }
-    }
-}
