@@ -20,7 +20,7 @@ const LEADER: f64 = 1.5;
 const APART: f64 = 0.9;
 /// Millimetres of an axis for each tick.
 const PER_X_TICK: f64 = 9.0;
-const PER_Y_TICK: f64 = 6.5;
+const PER_Y_TICK: f64 = 5.0;
 
 /// A page being drawn, with the boxes by which its layout is judged.
 pub(crate) struct Page {

@@ -11,6 +11,7 @@ use crate::legend::{Legend, Side, bar_width, draw_bar};
 use crate::scene::{Rect, Scene};
 use crate::surface::Surface;
 use crate::text::{Anchor, Font};
+use std::ops::RangeInclusive;
 
 /// The width of a figure.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,12 +109,27 @@ impl Panel {
     }
 }
 
+/// Where a panel stands on the grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Place {
+    row: usize,
+    column: usize,
+    /// Columns that it takes.
+    span: usize,
+}
+
+impl Place {
+    fn last(self) -> usize {
+        self.column + self.span - 1
+    }
+}
+
 /// Panels on a grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     size: [f64; 2],
     description: String,
-    panels: Vec<(usize, usize, Panel)>,
+    panels: Vec<(Place, Panel)>,
     rows: Vec<f64>,
     columns: Vec<f64>,
     bar: Option<ColourScale>,
@@ -187,12 +203,19 @@ impl Figure {
     }
 
     /// Puts a panel at a row and column, both from 0; the grid grows as needed.
-    pub fn panel(mut self, row: usize, column: usize, panel: Panel) -> Self {
+    pub fn panel(self, row: usize, column: usize, panel: Panel) -> Self {
+        self.wide_panel(row, column, 1, panel)
+    }
+
+    /// Puts a panel over several columns, from the given one on.
+    pub fn wide_panel(mut self, row: usize, column: usize, columns: usize, panel: Panel) -> Self {
+        let span = columns.max(1);
+        let place = Place { row, column, span };
         self.rows.resize(self.rows.len().max(row + 1), 1.0);
-        self.columns.resize(self.columns.len().max(column + 1), 1.0);
-        self.panels.push((row, column, panel));
+        self.columns.resize(self.columns.len().max(place.last() + 1), 1.0);
+        self.panels.push((place, panel));
         // letters run along the rows
-        self.panels.sort_by_key(|&(row, column, _)| (row, column));
+        self.panels.sort_by_key(|&(place, _)| place);
         self
     }
 
@@ -299,9 +322,9 @@ impl Figure {
         if self.panels.is_empty() {
             return Err(empty(0, 0));
         }
-        for (index, (row, column, panel)) in self.panels.iter().enumerate() {
-            if *row >= self.rows.len() || *column >= self.columns.len() {
-                return Err(empty(*row, *column));
+        for (index, (place, panel)) in self.panels.iter().enumerate() {
+            if place.row >= self.rows.len() || place.last() >= self.columns.len() {
+                return Err(empty(place.row, place.last()));
             }
             for (scale, _) in panel.scales() {
                 scale.check()?;
@@ -330,7 +353,7 @@ impl Figure {
 
         // what all panels share takes its place first
         if let Some(side) = self.legend {
-            let legend = Legend::of(self.panels.iter().filter_map(|(_, _, panel)| panel.chart()), &page)?;
+            let legend = Legend::of(self.panels.iter().filter_map(|(_, panel)| panel.chart()), &page)?;
             let [w, h] = legend.size(side, inside.width());
             let mut place = inside;
             match side {
@@ -356,11 +379,11 @@ impl Figure {
         }
 
         let cells = self.frames(inside, &page)?;
-        for (index, ((_, _, panel), (frame, margins))) in self.panels.iter().zip(&cells).enumerate() {
+        for (index, ((_, panel), (frame, margins))) in self.panels.iter().zip(&cells).enumerate() {
             self.draw_panel(index, panel, *frame, *margins, &mut page)?;
         }
         if let Some(scale) = &self.bar {
-            let all = self.panels.iter().flat_map(|(_, _, panel)| panel.scales());
+            let all = self.panels.iter().flat_map(|(_, panel)| panel.scales());
             let beyond = all
                 .filter(|(other, _)| other == scale)
                 .fold([false; 2], |a, (_, b)| [a[0] || b[0], a[1] || b[1]]);
@@ -375,53 +398,53 @@ impl Figure {
     /// The frames of the panels with their margins, aligned along rows and columns.
     fn frames(&self, inside: Rect, page: &Page) -> Result<Vec<(Rect, Margins)>, Error> {
         let (rows, columns) = (self.rows.len(), self.columns.len());
-        let share = |relative: &[f64], index: usize, total: f64| total * relative[index] / relative.iter().sum::<f64>();
-        let (gaps_x, gaps_y) = (BETWEEN * (columns - 1) as f64, BETWEEN * (rows - 1) as f64);
+        let gaps = |count: usize| BETWEEN * (count - 1) as f64;
         let (mut left, mut right) = (vec![0.0f64; columns], vec![0.0f64; columns]);
         let (mut top, mut bottom) = (vec![0.0f64; rows], vec![0.0f64; rows]);
-        for (row, column, panel) in &self.panels {
+        let grow = |margin: &mut f64, needed: f64| *margin = margin.max(needed);
+        for (place, panel) in &self.panels {
             let about = [
-                share(&self.columns, *column, inside.width() - gaps_x),
-                share(&self.rows, *row, inside.height() - gaps_y),
+                share(
+                    &self.columns,
+                    place.column..=place.last(),
+                    inside.width() - gaps(columns),
+                ),
+                share(&self.rows, place.row..=place.row, inside.height() - gaps(rows)),
             ];
             let margins = self.margins(panel, about, page)?;
-            left[*column] = left[*column].max(margins.left);
-            right[*column] = right[*column].max(margins.right);
-            top[*row] = top[*row].max(margins.top);
-            bottom[*row] = bottom[*row].max(margins.bottom);
+            grow(&mut left[place.column], margins.left);
+            grow(&mut right[place.last()], margins.right);
+            grow(&mut top[place.row], margins.top);
+            grow(&mut bottom[place.row], margins.bottom);
         }
-        let sum = |values: &[f64]| values.iter().sum::<f64>();
-        let free = [
-            inside.width() - gaps_x - sum(&left) - sum(&right),
-            inside.height() - gaps_y - sum(&top) - sum(&bottom),
-        ];
-        let start = |before: &[f64], after: &[f64], relative: &[f64], free: f64, index: usize, origin: f64| {
-            let earlier: f64 = (0..index)
-                .map(|k| before[k] + after[k] + share(relative, k, free) + BETWEEN)
-                .sum();
-            origin + earlier + before[index]
-        };
+        let across = intervals(
+            &self.columns,
+            &left,
+            &right,
+            inside.left,
+            inside.width() - gaps(columns),
+        );
+        let down = intervals(&self.rows, &top, &bottom, inside.top, inside.height() - gaps(rows));
         let mut frames = Vec::with_capacity(self.panels.len());
-        for (index, (row, column, _)) in self.panels.iter().enumerate() {
-            let [w, h] = [share(&self.columns, *column, free[0]), share(&self.rows, *row, free[1])];
-            if !(w >= LEAST && h >= LEAST) {
+        for (index, (place, _)) in self.panels.iter().enumerate() {
+            let (first, last, row) = (place.column, place.last(), place.row);
+            let frame = Rect::new(across[first].0, down[row].0, across[last].1, down[row].1);
+            if !(frame.width() >= LEAST && frame.height() >= LEAST) {
                 return Err(Error::NoRoom {
                     panel: index + 1,
-                    width: w,
-                    height: h,
+                    width: frame.width(),
+                    height: frame.height(),
                     least: LEAST,
                 });
             }
-            let x = start(&left, &right, &self.columns, free[0], *column, inside.left);
-            let y = start(&top, &bottom, &self.rows, free[1], *row, inside.top);
             // titles and legends are aligned like the frames
             let margins = Margins {
-                left: left[*column],
-                right: right[*column],
-                top: top[*row],
-                bottom: bottom[*row],
+                left: left[first],
+                right: right[last],
+                top: top[row],
+                bottom: bottom[row],
             };
-            frames.push((Rect::new(x, y, x + w, y + h), margins));
+            frames.push((frame, margins));
         }
         Ok(frames)
     }
@@ -464,8 +487,10 @@ impl Figure {
             let place = match side {
                 Side::Top => Rect::new(left, top, right, top + h),
                 Side::Bottom => {
-                    let bottom = frame.bottom + margins.bottom;
-                    Rect::new(left, bottom - h, right, bottom)
+                    // below its own axis, however much room another panel of the row needs
+                    let own = draw::margins(chart, [frame.width(), frame.height()], page)?.bottom;
+                    let top = frame.bottom + own + NEAR;
+                    Rect::new(left, top, right, top + h)
                 }
                 Side::Right => Rect::new(right - w, frame.top, right, frame.top + h),
             };
@@ -473,6 +498,24 @@ impl Figure {
         }
         Ok(())
     }
+}
+
+/// The part of a length that some of the rows or columns get.
+fn share(relative: &[f64], which: RangeInclusive<usize>, total: f64) -> f64 {
+    total * relative[which].iter().sum::<f64>() / relative.iter().sum::<f64>()
+}
+
+/// The frames' extents along rows or columns, from the margins before and after each; `total` is without the gaps between.
+fn intervals(relative: &[f64], before: &[f64], after: &[f64], origin: f64, total: f64) -> Vec<(f64, f64)> {
+    let free = total - before.iter().chain(after).sum::<f64>();
+    let mut at = origin;
+    let extent = |index: usize| {
+        let start = at + before[index];
+        let end = start + share(relative, index..=index, free);
+        at = end + after[index] + BETWEEN;
+        (start, end)
+    };
+    (0..relative.len()).map(extent).collect()
 }
 
 /// The height of one line of labels, in millimetres: a help in choosing the height of a figure.

@@ -9,26 +9,31 @@ pub(crate) struct Tick {
     pub text: String,
 }
 
-/// Ticks at multiples of 1, 2 or 5 times a power of ten: the finest such step with at most `most` of them.
+/// Ticks at multiples of 1, 2 or 5 times a power of ten: the finest such step with at most `most` of them, or the next finer one if that
+/// leaves a single tick, from which no scale can be read.
 pub(crate) fn linear(low: f64, high: f64, most: usize) -> Vec<Tick> {
     let span = high - low;
-    let mut exponent = (span / most.max(1) as f64).log10().floor() as i32;
-    let (step, exponent) = 'found: loop {
-        for factor in [1.0, 2.0, 5.0] {
-            let step = factor * 10f64.powi(exponent);
-            if (high / step + SLACK).floor() - (low / step - SLACK).ceil() + 1.0 <= most.max(2) as f64 {
-                break 'found (step, exponent);
-            }
+    let finest = (span / most.max(1) as f64).log10().floor() as i32 - 1;
+    let steps = (finest..).flat_map(|exponent| [1.0, 2.0, 5.0].map(|factor| (factor * 10f64.powi(exponent), exponent)));
+    let count = |step: f64| (high / step + SLACK).floor() - (low / step - SLACK).ceil() + 1.0;
+    let mut chosen = (span, finest);
+    for (step, exponent) in steps {
+        let fits = count(step) <= most.max(2) as f64;
+        if !(fits && count(step) < 2.0) {
+            chosen = (step, exponent);
         }
-        exponent += 1;
-    };
+        if fits {
+            break;
+        }
+    }
+    let (step, exponent) = chosen;
     let first = (low / step - SLACK).ceil() as i64;
     let last = (high / step + SLACK).floor() as i64;
     let largest = low.abs().max(high.abs()).log10().floor() as i32;
     let text = |value: f64| {
         if value == 0.0 {
             "0".to_owned()
-        } else if exponent < -4 || largest > 4 {
+        } else if !(-3..=4).contains(&largest) {
             let mantissa = value / 10f64.powi(largest);
             let decimals = (largest - exponent).max(0) as usize;
             format!("${}·10^{{{largest}}}$", number(mantissa, decimals))
@@ -99,6 +104,8 @@ mod tests {
         assert_eq!(texts(&linear(-10.0, 10.0, 5)), ["-10", "-5", "0", "5", "10"]);
         assert_eq!(texts(&linear(3.0, 20.0, 6)), ["5", "10", "15", "20"]);
         assert_eq!(texts(&linear(0.0, 2e-6, 3)), ["0", "1·10^{-6}", "2·10^{-6}"]);
+        assert_eq!(texts(&linear(12.0, 90.0, 3)), ["20", "40", "60", "80"]);
+        assert_eq!(texts(&linear(0.5, 0.50001, 3)), ["0.500000", "0.500005", "0.500010"]);
         assert_eq!(texts(&linear(0.0, 40000.0, 3)), ["0", "20000", "40000"]);
         assert_eq!(texts(&linear(0.0, 400000.0, 3)), ["0", "2·10^{5}", "4·10^{5}"]);
     }
@@ -115,11 +122,14 @@ mod tests {
     }
 
     #[test]
-    fn never_more_than_asked() {
+    fn two_or_more_but_no_more_than_asked() {
         for most in 2..12 {
             for (low, high) in [(0.0, 1.0), (-0.37, 12.1), (1e-9, 3e-9), (-5e7, 1e8), (99.0, 101.0)] {
                 let count = linear(low, high, most).len();
-                assert!(count <= most && count >= 1, "{low} {high} {most}: {count}");
+                assert!(
+                    count >= 2 && (count <= most || most < 5),
+                    "{low} {high} {most}: {count}"
+                );
             }
         }
     }

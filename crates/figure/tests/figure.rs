@@ -157,3 +157,25 @@ fn what_cannot_be_drawn_is_refused_with_numbers() {
     assert!(figure().png(f64::NAN).unwrap_err().to_string().contains("20 to 2400"));
     assert!(figure().png(1.0).is_err());
 }
+
+#[test]
+fn frames_are_aligned_and_wide_panels_span_columns() {
+    let panel = |range| Panel::new(chart(range));
+    let figure = Figure::new(Width::Two, 120.0, "")
+        .wide_panel(0, 0, 2, panel((0.0, 1.0)).legend(Side::Bottom))
+        .panel(0, 2, panel((0.0, 1e-7)))
+        .panel(1, 0, panel((0.0, 1.0)))
+        .panel(1, 1, panel((0.0, 1.0)))
+        .panel(1, 2, panel((0.0, 1.0)))
+        .column_widths(&[2.0, 2.0, 1.0])
+        .row_heights(&[2.0, 1.0]);
+    let layout = figure.layout().unwrap();
+    let [wide, side, first, second, third] = layout.plots[..] else {
+        panic!("{:?}", layout.plots)
+    };
+    assert_eq!((wide.left, wide.right), (first.left, second.right));
+    assert_eq!((side.left, side.top), (third.left, wide.top));
+    assert!((first.width() - 2.0 * third.width()).abs() < 1e-9 && (wide.height() - 2.0 * first.height()).abs() < 1e-9);
+    let short = figure.column_widths(&[1.0, 1.0]);
+    assert!(matches!(short.svg(), Err(Error::Grid { .. })));
+}
