@@ -10,6 +10,7 @@ mod interval;
 pub mod linear;
 pub mod map;
 mod mean_value;
+pub mod range;
 mod rows;
 pub mod spectral;
 mod status;

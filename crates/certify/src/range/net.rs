@@ -1,0 +1,87 @@
+//! The characteristic map on an interval of lambda.
+
+use super::point::Point;
+use crate::map::PlaneNet;
+use crate::spectral::net;
+use crate::{Centred, Enclose};
+use eigenring_scheme::{Scalar, Scheme};
+use eigenring_spectral::{Annulus, Block, Matrix, fourier_block};
+
+/// The net of the eigenvector of lambda in block 1, with `E_0 = (1, 0)`; `None` if it cannot be enclosed.
+///
+/// `E = 1` and, from the face rule, `F = 2 f2 cos(pi/N)/(lambda - f3)` in the real unknowns; then ring by ring
+/// `(lambda - S_rr) v_r = sum_q S_rq v_q` over the rings q before r.
+pub fn characteristic(point: &Point) -> Option<PlaneNet<Centred<1>>> {
+    let plane = &point.plane;
+    let scheme: Scheme<Centred<1>> = point.stencil.weights.scheme("", plane.valence).ok()?;
+    let annulus = Annulus::new(&scheme).ok()?;
+    let numbering = annulus.numbering;
+    let Block::Real(block) = fourier_block(&scheme.limit, numbering.rings, 1).ok()? else {
+        return None;
+    };
+    let gap = plane.lambda - point.f3;
+    if gap.enclosure().contains_zero() {
+        return None;
+    }
+    let rings: Vec<usize> = numbering.sector_sites(0).map(|site| site.ring()).collect();
+    let sites: Vec<_> = numbering.sector_sites(0).collect();
+    let mut vector = vec![Centred::zero(); sites.len()];
+    for (value, site) in vector.iter_mut().zip(&sites).filter(|(_, site)| site.ring() == 1) {
+        *value = if site.y == 0 {
+            Centred::one()
+        } else {
+            plane.corner_radius(point.f2, point.f3)
+        };
+    }
+    for ring in 2..=numbering.rings {
+        let members: Vec<usize> = (0..sites.len()).filter(|&i| rings[i] == ring).collect();
+        let right: Vec<Centred<1>> = members
+            .iter()
+            .map(|&i| {
+                let inner = (0..sites.len()).filter(|&j| rings[j] < ring && !block[(i, j)].enclosure().is_zero());
+                inner.fold(Centred::zero(), |sum, j| sum + block[(i, j)] * vector[j])
+            })
+            .collect();
+        let shifted = Matrix::from_fn(members.len(), members.len(), |i, j| {
+            let entry = block[(members[i], members[j])];
+            if i == j { plane.lambda - entry } else { -entry }
+        });
+        for (&unknown, value) in members.iter().zip(eliminate(shifted, right)?) {
+            vector[unknown] = value;
+        }
+    }
+    let (x, y) = net(numbering, 1, &vector, 0).into_iter().unzip();
+    PlaneNet::new(annulus, 1, true, [x, y]).ok()
+}
+
+/// Gaussian elimination, pivots by their size at the centre; `None` if a pivot may be zero. Meant for the few unknowns of a ring.
+fn eliminate<S: Enclose>(matrix: Matrix<S>, right: Vec<S>) -> Option<Vec<S>> {
+    let size = right.len();
+    let mut rows: Vec<Vec<S>> = (0..size)
+        .map(|i| matrix.row(i).iter().copied().chain([right[i]]).collect())
+        .collect();
+    for k in 0..size {
+        let magnitude = |row: &Vec<S>| row[k].central().mid().abs();
+        let pivot = (k..size).max_by(|&a, &b| magnitude(&rows[a]).total_cmp(&magnitude(&rows[b])))?;
+        rows.swap(k, pivot);
+        if rows[k][k].enclosure().contains_zero() {
+            return None;
+        }
+        let (upper, lower) = rows.split_at_mut(k + 1);
+        for row in lower {
+            if row[k].enclosure().is_zero() {
+                continue;
+            }
+            let factor = row[k] / upper[k][k];
+            for (entry, &pivot) in row.iter_mut().zip(&upper[k]).skip(k) {
+                *entry = *entry - factor * pivot;
+            }
+        }
+    }
+    let mut solution = vec![S::zero(); size];
+    for k in (0..size).rev() {
+        let known = (k + 1..size).fold(rows[k][size], |sum, j| sum - rows[k][j] * solution[j]);
+        solution[k] = known / rows[k][k];
+    }
+    Some(solution)
+}
