@@ -17,6 +17,8 @@ pub enum Error {
     Sweep(#[from] eigenring_tune::sweep::Error),
     #[error(transparent)]
     Study(#[from] eigenring_tune::study::Error),
+    #[error(transparent)]
+    Figure(#[from] eigenring_figure::Error),
     #[error("cannot read {}: {source}", path.display())]
     Read { path: PathBuf, source: std::io::Error },
     #[error("cannot write {}: {source}", path.display())]

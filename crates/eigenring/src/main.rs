@@ -11,6 +11,7 @@ mod command_line;
 mod commands;
 mod compare;
 mod error;
+mod figures;
 mod files;
 mod index;
 mod progress;

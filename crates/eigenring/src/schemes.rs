@@ -287,6 +287,26 @@ pub fn split(list: &str) -> Vec<String> {
     specs
 }
 
+/// Schemes as a list, with their specs.
+#[derive(Clone, Debug)]
+pub struct SchemeList(pub Vec<(String, SchemeArg)>);
+
+impl FromStr for SchemeList {
+    type Err = eigenring_scheme::Error;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let parse = |spec: String| {
+            let scheme = spec.parse()?;
+            Ok((spec, scheme))
+        };
+        split(text)
+            .into_iter()
+            .map(parse)
+            .collect::<Result<_, _>>()
+            .map(SchemeList)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

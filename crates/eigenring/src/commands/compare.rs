@@ -3,14 +3,13 @@
 use crate::args::{Output, Valences};
 use crate::error::Error;
 use crate::files;
-use crate::schemes::{SchemeArg, split};
+use crate::schemes::SchemeList;
 use crate::table::Table;
 use clap::Args;
 use eigenring_scheme::Scheme;
 use eigenring_spectral::LocalSystem;
 use eigenring_tune::quality::Quality;
 use std::process::ExitCode;
-use std::str::FromStr;
 
 /// Compare schemes over valences.
 ///
@@ -31,25 +30,6 @@ pub struct Arguments {
     valences: Valences,
     #[command(flatten)]
     output: Output,
-}
-
-#[derive(Clone, Debug)]
-struct SchemeList(Vec<(String, SchemeArg)>);
-
-impl FromStr for SchemeList {
-    type Err = eigenring_scheme::Error;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let parse = |spec: String| {
-            let scheme = spec.parse()?;
-            Ok((spec, scheme))
-        };
-        split(text)
-            .into_iter()
-            .map(parse)
-            .collect::<Result<_, _>>()
-            .map(SchemeList)
-    }
 }
 
 /// Gauss points per patch and direction, as in the tuning.

@@ -1,0 +1,327 @@
+//! `eigenring plot`: figures with their data.
+
+use crate::args::{self, Valences};
+use crate::error::Error;
+use crate::figures::{self, Drawing, Entry, FIGURES, Inputs, Studies};
+use crate::files;
+use crate::progress::note;
+use crate::results::{EVERYTHING, FOLDER};
+use crate::schemes::{SchemeArg, SchemeList};
+use crate::table::{Format, Table};
+use clap::{Args, ValueEnum};
+use eigenring_figure::Width;
+use eigenring_scheme::Spec;
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::str::FromStr;
+
+/// Draw figures, each with its data as CSV beside it.
+///
+/// Numbers come from the stored results where they are found, and are computed on the spot where not. The names of the
+/// files that were written are printed.
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Examples:\n  eigenring plot --list\n  eigenring plot --all\n  eigenring plot samples --valences 5,8 --size one\n  eigenring plot stencils --valences 3..20 --range 0.3..0.7 --format svg --out /tmp/figures"
+)]
+pub struct Arguments {
+    /// Names of figures; see --list
+    #[arg(value_name = "FIGURE")]
+    figures: Vec<String>,
+    /// Draw every figure
+    #[arg(long, conflicts_with = "figures")]
+    all: bool,
+    /// List the figures and draw nothing
+    #[arg(long, conflicts_with_all = ["figures", "all"])]
+    list: bool,
+    /// Output folder
+    #[arg(long, value_name = "FOLDER", default_value = "results/figures")]
+    out: PathBuf,
+    /// Formats of the pictures
+    #[arg(
+        long,
+        value_name = "LIST",
+        value_enum,
+        value_delimiter = ',',
+        default_value = "svg,png"
+    )]
+    format: Vec<PictureFormat>,
+    /// Dots per inch of PNG files, at the printed size
+    #[arg(long, value_name = "X", default_value = "300", value_parser = args::number, allow_negative_numbers = true)]
+    dpi: f64,
+    /// Width: one printed column (85 mm) or two (178 mm); by default each figure's own
+    #[arg(long, value_enum)]
+    size: Option<Size>,
+    /// Valences: numbers and ranges; by default each figure's own
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    valences: Option<Valences>,
+    /// Lambdas, separated by commas; by default each figure's own
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = args::number, allow_negative_numbers = true)]
+    lambda: Vec<f64>,
+    /// The range of lambda that is shown, by default 0.15..0.9
+    #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
+    range: Option<Interval>,
+    /// Schemes, separated by commas, for figures of maps; see 'eigenring --help'
+    #[arg(long, value_name = "SPEC,SPEC,...", conflicts_with = "lambda")]
+    schemes: Option<SchemeList>,
+    /// The range of values that colours show; by default each figure's own
+    #[arg(long, value_name = "A..B", value_parser = colours, allow_hyphen_values = true)]
+    colours: Option<(f64, f64)>,
+    /// The folder with stored results; by default results, if it is there
+    #[arg(long, value_name = "FOLDER")]
+    results: Option<PathBuf>,
+}
+
+/// What is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum PictureFormat {
+    /// Vector graphics.
+    Svg,
+    /// The same, rasterised.
+    Png,
+}
+
+/// Widths of a journal page.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Size {
+    /// 85 mm.
+    One,
+    /// 178 mm.
+    Two,
+}
+
+/// Reads `A..B` with A < B.
+fn colours(text: &str) -> Result<(f64, f64), String> {
+    let refuse = || "accepted is A..B with finite A < B, such as -2..2".to_owned();
+    let (low, high) = text.split_once("..").ok_or_else(refuse)?;
+    let number = |text: &str| args::finite(text.trim()).map_err(|_| refuse());
+    let (low, high) = (number(low)?, number(high)?);
+    if low < high { Ok((low, high)) } else { Err(refuse()) }
+}
+
+/// `A..B` with A < B.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Interval(f64, f64);
+
+/// The lambdas for which stencils are defined.
+const LAMBDAS: (f64, f64) = (0.125, 1.0);
+
+impl FromStr for Interval {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let refuse = || "accepted is A..B with 0.125 <= A < B <= 1, such as 0.15..0.9".to_owned();
+        let (low, high) = text.split_once("..").ok_or_else(refuse)?;
+        let number = |text: &str| text.trim().parse::<f64>().map_err(|_| refuse());
+        let (low, high) = (number(low)?, number(high)?);
+        if LAMBDAS.0 <= low && low < high && high <= LAMBDAS.1 {
+            return Ok(Interval(low, high));
+        }
+        Err(refuse())
+    }
+}
+
+/// The lambdas of the tables.
+const TABULATED: (f64, f64) = (0.15, 0.9);
+
+/// Where results are by default.
+const RESULTS: &str = "results";
+
+impl Arguments {
+    pub fn run(self) -> Result<ExitCode, Error> {
+        if self.list {
+            files::emit(None, list().as_bytes())?;
+            return Ok(ExitCode::SUCCESS);
+        }
+        let entries = self.entries()?;
+        self.check(&entries)?;
+        files::check_writable(&self.out)?;
+        let studies = self.studies(&entries)?;
+        let drawn: Vec<Vec<(String, Vec<u8>)>> = entries
+            .par_iter()
+            .map(|entry| self.draw(entry, &studies))
+            .collect::<Result<_, _>>()?;
+        let mut names = String::new();
+        for (name, contents) in drawn.into_iter().flatten() {
+            let path = self.out.join(name);
+            files::write(&path, &contents)?;
+            names.push_str(&format!("{}\n", path.display()));
+        }
+        if let Some(remark) = &studies.remark {
+            note(remark);
+        }
+        files::emit(None, names.as_bytes())?;
+        Ok(ExitCode::SUCCESS)
+    }
+
+    /// The figures asked for, each once.
+    fn entries(&self) -> Result<Vec<&'static Entry>, Error> {
+        if self.all {
+            return Ok(FIGURES.iter().collect());
+        }
+        if self.figures.is_empty() {
+            let names: Vec<&str> = FIGURES.iter().map(|entry| entry.name).collect();
+            return Err(Error::Usage {
+                message: "no figure is named".to_owned(),
+                accepted: format!("--all, --list, or {}", names.join(", ")),
+            });
+        }
+        let mut entries: Vec<&'static Entry> = Vec::new();
+        for name in &self.figures {
+            let entry = figures::find(name)?;
+            if !entries.iter().any(|known| known.name == entry.name) {
+                entries.push(entry);
+            }
+        }
+        Ok(entries)
+    }
+
+    /// Refuses what the figures do not take; with --all, options go to those that take them.
+    fn check(&self, entries: &[&Entry]) -> Result<(), Error> {
+        for &lambda in &self.lambda {
+            if !(LAMBDAS.0 < lambda && lambda < LAMBDAS.1) {
+                return Err(Error::Range {
+                    what: "lambda",
+                    given: lambda.to_string(),
+                    accepted: "0.125 < lambda < 1".to_owned(),
+                });
+            }
+        }
+        if self.all {
+            return Ok(());
+        }
+        for entry in entries {
+            let refuse = |option: &str, takes: fn(&Entry) -> bool| {
+                let names: Vec<&str> = FIGURES.iter().filter(|e| takes(e)).map(|e| e.name).collect();
+                Err(Error::Usage {
+                    message: format!("figure {} does not take {option}", entry.name),
+                    accepted: format!("{option} for {}", names.join(", ")),
+                })
+            };
+            if self.valences.is_some() && entry.valences.is_empty() {
+                return refuse("--valences", |entry| !entry.valences.is_empty());
+            }
+            if self.range.is_some() && !entry.range {
+                return refuse("--range", |entry| entry.range);
+            }
+            if !self.lambda.is_empty() && !takes_lambda(entry) {
+                return refuse("--lambda", takes_lambda);
+            }
+            if self.schemes.is_some() && entry.schemes.is_none() {
+                return refuse("--schemes", |entry| entry.schemes.is_some());
+            }
+            if self.colours.is_some() && entry.colours.is_none() {
+                return refuse("--colours", |entry| entry.colours.is_some());
+            }
+        }
+        Ok(())
+    }
+
+    fn valences<'a>(&'a self, entry: &'a Entry) -> &'a [usize] {
+        match &self.valences {
+            Some(Valences(valences)) if !entry.valences.is_empty() => valences,
+            _ => entry.valences,
+        }
+    }
+
+    /// The schemes of a figure that takes them: given by name, as members of the lambda-scheme, or its own.
+    fn schemes(&self, entry: &Entry) -> Result<Vec<SchemeArg>, Error> {
+        if entry.schemes.is_none() {
+            return Ok(Vec::new());
+        }
+        let member = |&lambda: &f64| {
+            SchemeArg::Spec(Spec::Lambda {
+                lambda,
+                s: None,
+                weights: None,
+            })
+        };
+        match &self.schemes {
+            Some(SchemeList(schemes)) => Ok(schemes.iter().map(|(_, scheme)| scheme.clone()).collect()),
+            None if !self.lambda.is_empty() => Ok(self.lambda.iter().map(member).collect()),
+            None => entry.default_schemes(),
+        }
+    }
+
+    fn studies(&self, entries: &[&Entry]) -> Result<Studies, Error> {
+        let needed = entries.iter().filter(|entry| entry.studies);
+        let needed: Vec<usize> = needed.flat_map(|entry| self.valences(entry)).copied().collect();
+        let default = Path::new(RESULTS);
+        match &self.results {
+            Some(folder) => Studies::load(Some(folder), &needed),
+            None if default.join(FOLDER).join(EVERYTHING).exists() => Studies::load(Some(default), &needed),
+            None => Studies::load(None, &needed),
+        }
+    }
+
+    /// The files of a figure.
+    fn draw(&self, entry: &Entry, studies: &Studies) -> Result<Vec<(String, Vec<u8>)>, Error> {
+        let schemes = self.schemes(entry)?;
+        let inputs = Inputs {
+            schemes: &schemes,
+            colours: entry.colours.map(|default| self.colours.unwrap_or(default)),
+            valences: self.valences(entry),
+            lambdas: match entry.lambdas {
+                [] => &[],
+                defaults if self.lambda.is_empty() => defaults,
+                _ => &self.lambda,
+            },
+            range: self.range.map_or(TABULATED, |range| (range.0, range.1)),
+            width: match self.size {
+                Some(Size::One) => Width::One,
+                Some(Size::Two) => Width::Two,
+                None => entry.width,
+            },
+            studies,
+        };
+        let drawings = (entry.build)(&inputs)?;
+        let files: Vec<Vec<(String, Vec<u8>)>> = drawings
+            .into_par_iter()
+            .map(|drawing| self.files(&drawing))
+            .collect::<Result<_, _>>()?;
+        Ok(files.into_iter().flatten().collect())
+    }
+
+    fn files(&self, drawing: &Drawing) -> Result<Vec<(String, Vec<u8>)>, Error> {
+        let Drawing { stem, figure, data } = drawing;
+        let mut files = Vec::new();
+        if self.format.contains(&PictureFormat::Svg) {
+            files.push((format!("{stem}.svg"), figure.svg()?.into_bytes()));
+        }
+        if self.format.contains(&PictureFormat::Png) {
+            files.push((format!("{stem}.png"), figure.png(self.dpi)?));
+        }
+        for (suffix, table) in data {
+            let name = match *suffix {
+                "" => format!("{stem}.csv"),
+                suffix => format!("{stem}-{suffix}.csv"),
+            };
+            files.push((name, table.render(Format::Csv).into_bytes()));
+        }
+        Ok(files)
+    }
+}
+
+fn takes_lambda(entry: &Entry) -> bool {
+    !entry.lambdas.is_empty() || entry.schemes.is_some()
+}
+
+/// All figures, for people.
+fn list() -> String {
+    let mut table = Table::new(["name", "shows", "corresponds to", "valences"]);
+    for entry in FIGURES {
+        let valences: Vec<String> = entry.valences.iter().map(usize::to_string).collect();
+        let valences = match entry.valences {
+            [] => "-".to_owned(),
+            [first, .., last] if last - first + 1 == entry.valences.len() => format!("{first}..{last}"),
+            _ => valences.join(","),
+        };
+        table.push(vec![
+            entry.name.into(),
+            entry.title.into(),
+            entry.reference.into(),
+            valences.into(),
+        ]);
+    }
+    table.render(Format::Text)
+}

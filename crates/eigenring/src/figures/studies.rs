@@ -1,0 +1,132 @@
+//! Where the numbers of figures come from: stored results, or computed on the spot.
+
+use crate::error::Error;
+use crate::files;
+use crate::results::{EVERYTHING, FOLDER, FORMAT_VERSION, Results};
+use crate::run::{Parameters, check, studies};
+use eigenring_scheme::lambda::{Entry, LambdaTable};
+use eigenring_tune::study::{Knots, Study};
+use eigenring_tune::sweep::{Options, Range};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Studies by valence, all of one set of parameters.
+#[derive(Debug)]
+pub struct Studies {
+    parameters: Parameters,
+    by_valence: BTreeMap<usize, Study>,
+    /// Of what was computed, for people.
+    pub remark: Option<String>,
+}
+
+impl Studies {
+    /// The studies stored below a folder (`FOLDER/lambda/tables.json`), and those of the needed valences, computed where they are
+    /// not stored. Without a folder nothing is read.
+    pub fn load(folder: Option<&Path>, needed: &[usize]) -> Result<Self, Error> {
+        let stored = folder.map(read).transpose()?;
+        let (parameters, known) = match stored {
+            Some(results) => (results.provenance.parameters, results.valences),
+            None => (
+                Parameters::new(Vec::new(), Knots::Detected, &Options::default(), &Range::default()),
+                Vec::new(),
+            ),
+        };
+        let mut by_valence: BTreeMap<usize, Study> = known.into_iter().map(|study| (study.valence, study)).collect();
+        let mut missing: Vec<usize> = needed.iter().copied().filter(|n| !by_valence.contains_key(n)).collect();
+        missing.sort_unstable();
+        missing.dedup();
+        let mut remark = None;
+        if !missing.is_empty() {
+            let names: Vec<String> = missing.iter().map(usize::to_string).collect();
+            let place = folder.map_or("stored results".to_owned(), |folder| folder.display().to_string());
+            remark = Some(format!(
+                "samples of N = {} are not in {place}; tuned now",
+                names.join(", ")
+            ));
+            let parameters = Parameters {
+                valences: missing,
+                ..parameters.clone()
+            };
+            check(&parameters)?;
+            let computed = studies(&parameters, None)?;
+            by_valence.extend(computed.into_iter().map(|study| (study.valence, study)));
+        }
+        Ok(Studies {
+            parameters,
+            by_valence,
+            remark,
+        })
+    }
+
+    /// The study of a valence that was asked for.
+    pub fn get(&self, valence: usize) -> Result<&Study, Error> {
+        self.by_valence.get(&valence).ok_or_else(|| Error::Usage {
+            message: format!("there are no samples of N = {valence}"),
+            accepted: format!("{:?}", self.by_valence.keys().collect::<Vec<_>>()),
+        })
+    }
+
+    /// The splines and featured values of a valence: stored ones, else the embedded ones; `None` where there are neither.
+    pub fn entry(&self, valence: usize) -> Result<Option<Entry>, Error> {
+        if let Some(study) = self.by_valence.get(&valence) {
+            let end = study
+                .featured("lambda_r2")
+                .map_or(self.parameters.range[1], |f| f.lambda);
+            return Ok(Some(study.entry(self.parameters.phi, end)));
+        }
+        Ok(LambdaTable::embedded()?.entry(valence).ok().cloned())
+    }
+
+    /// How the stencils were tuned.
+    pub fn options(&self) -> Options {
+        self.parameters.options().0
+    }
+}
+
+/// The stored results, if their format is this one.
+fn read(folder: &Path) -> Result<Results, Error> {
+    let path = folder.join(FOLDER).join(EVERYTHING);
+    let text = files::read(&path)?;
+    let bad = |message| Error::BadFile {
+        path: path.clone(),
+        message,
+    };
+    let results: Results =
+        serde_json::from_str(&text).map_err(|error| bad(format!("no results of this version: {error}")))?;
+    if results.version != FORMAT_VERSION {
+        return Err(bad(format!(
+            "version {}: accepted is {FORMAT_VERSION}",
+            results.version
+        )));
+    }
+    Ok(results)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_stored_is_computed_and_agrees_with_the_embedded_table() {
+        let studies = Studies::load(None, &[6]).unwrap();
+        let computed = studies.entry(6).unwrap().unwrap();
+        let embedded = LambdaTable::embedded().unwrap().entry(6).unwrap();
+        assert!((computed.lambda_optimal - embedded.lambda_optimal).abs() < 1e-6);
+        assert!(studies.get(6).is_ok() && studies.get(7).is_err());
+        assert!(studies.entry(7).unwrap().is_some() && studies.entry(64).unwrap().is_none());
+    }
+
+    #[test]
+    fn missing_and_broken_results_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(matches!(
+            Studies::load(Some(folder.path()), &[]),
+            Err(Error::Read { .. })
+        ));
+        files::write(&folder.path().join("lambda/tables.json"), b"{}").unwrap();
+        assert!(matches!(
+            Studies::load(Some(folder.path()), &[]),
+            Err(Error::BadFile { .. })
+        ));
+    }
+}
