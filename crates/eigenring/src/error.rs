@@ -19,6 +19,8 @@ pub enum Error {
     Study(#[from] eigenring_tune::study::Error),
     #[error(transparent)]
     Figure(#[from] eigenring_figure::Error),
+    #[error(transparent)]
+    Certify(#[from] eigenring_certify::Error),
     #[error("cannot read {}: {source}", path.display())]
     Read { path: PathBuf, source: std::io::Error },
     #[error("cannot write {}: {source}", path.display())]

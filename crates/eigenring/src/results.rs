@@ -94,7 +94,7 @@ fn compact(value: &impl Serialize) -> String {
     serde_json::to_string(value).expect("plain data with string keys has a JSON form")
 }
 
-fn tool() -> String {
+pub fn tool() -> String {
     format!("eigenring {}", env!("CARGO_PKG_VERSION"))
 }
 

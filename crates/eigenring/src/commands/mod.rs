@@ -9,6 +9,7 @@ mod spectrum;
 mod stencil;
 mod tables;
 mod tune;
+mod verify;
 
 use crate::error::Error;
 use clap::{Parser, Subcommand};
@@ -19,7 +20,7 @@ use std::process::ExitCode;
 #[command(
     name = "eigenring",
     version,
-    after_help = "Examples:\n  eigenring tables                                   regenerate results/lambda from nothing\n  eigenring stencil -N 6 --lambda 0.55               the stencils of one valence and lambda\n  eigenring spectrum --scheme catmull-clark -N 5     eigenvalues and limit stencils\n  eigenring compare --schemes catmull-clark,lambda:optimal --valences 3..12\n  eigenring plot --all                               every figure, with its data\n\nSchemes: catmull-clark | doo-sabin | lambda:optimal | lambda:lambda=L[,f2=X,f3=Y][,s=S] |\n         tension:order=K[,u0=U] | file:SCHEME.toml\nExit codes: 0 done, 1 refuted or different, 2 bad input."
+    after_help = "Examples:\n  eigenring tables                                   regenerate results/lambda from nothing\n  eigenring stencil -N 6 --lambda 0.55               the stencils of one valence and lambda\n  eigenring spectrum --scheme catmull-clark -N 5     eigenvalues and limit stencils\n  eigenring compare --schemes catmull-clark,lambda:optimal --valences 3..12\n  eigenring verify --scheme catmull-clark -N 5       prove that it is C1\n  eigenring plot --all                               every figure, with its data\n\nSchemes: catmull-clark | doo-sabin | lambda:optimal | lambda:lambda=L[,f2=X,f3=Y][,s=S] |\n         tension:order=K[,u0=U] | file:SCHEME.toml\nExit codes: 0 done, 1 refuted or different, 2 bad input."
 )]
 pub struct Cli {
     #[command(subcommand)]
@@ -32,6 +33,7 @@ enum Command {
     Stencil(stencil::Arguments),
     Objective(objective::Arguments),
     Tune(tune::Arguments),
+    Verify(verify::Arguments),
     Spectrum(spectrum::Arguments),
     Matrix(matrix::Arguments),
     Compare(compare::Arguments),
@@ -47,6 +49,7 @@ impl Cli {
             Command::Stencil(arguments) => arguments.run(),
             Command::Objective(arguments) => arguments.run(),
             Command::Tune(arguments) => arguments.run(),
+            Command::Verify(arguments) => arguments.run(),
             Command::Spectrum(arguments) => arguments.run(),
             Command::Matrix(arguments) => arguments.run(),
             Command::Compare(arguments) => arguments.run(),

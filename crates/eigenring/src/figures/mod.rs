@@ -5,13 +5,21 @@
 //! A figure is a registered [`Entry`]: a name, what it shows, what it takes, and a function from [`Inputs`] to [`Drawing`]s. Drawings are pure functions of
 //! their inputs; the command writes them. Each drawing comes with the tables of the numbers it shows, which are what tests compare.
 
+mod characteristic;
 mod curvature_sign;
+mod feasible_domain;
 mod feasible_region;
+mod grid;
+mod natural;
 mod nets;
 mod overview;
 mod samples;
+mod second_order;
+mod sheet;
+mod spectra;
 mod stencils;
 mod studies;
+mod subject;
 mod sweep;
 mod weighting;
 
@@ -94,6 +102,11 @@ pub const FIGURES: &[Entry] = &[
     samples::ENTRY,
     stencils::ENTRY,
     curvature_sign::ENTRY,
+    feasible_domain::ENTRY,
+    natural::ENTRY,
+    characteristic::ENTRY,
+    second_order::ENTRY,
+    spectra::ENTRY,
 ];
 
 impl Entry {

@@ -238,6 +238,9 @@ impl LambdaTable {
     }
 }
 
+/// Coefficients of f3 are at most 1 and four of them are combined: a value below this is the rounding of zero.
+const ROUNDING: f64 = 1e-15;
+
 impl Entry {
     /// f2 and f3 at `lambda` (Eq. 22; f3 at valence 4 is mu).
     ///
@@ -259,6 +262,8 @@ impl Entry {
             4 => mu(lambda)?,
             _ => basis.combine(&basis.values, &self.f3),
         };
+        // where the spline touches its bound f3 >= 0, the sum of its terms ends within rounding on either side
+        let f3 = if f3.abs() < ROUNDING { 0.0 } else { f3 };
         Ok((f2, f3))
     }
 

@@ -1,0 +1,143 @@
+//! Second-order maps in space: cup and two saddles over the characteristic map (Ma, Wang and Ma 2023, Fig. 4b).
+//!
+//! A surface is curvature continuous at the centre only if these maps are quadratics: then `K* = z_xx z_yy - z_xy^2` is constant, positive on the cup and negative
+//! on saddles. Colour shows K* relative to the mean of its modulus over the outer annulus; where the sign is wrong, the region is outlined. Annuli further in
+//! follow by lambda and mu. Rows are schemes; each valence has a picture of its own. Heights are scaled to the same extent.
+
+use super::characteristic::resolution;
+use super::grid::{Grid, NARROWEST};
+use super::sheet::{Point, Sheet, common_inner};
+use super::subject::chosen;
+use super::{Drawing, Entry, Inputs};
+use crate::error::Error;
+use crate::table::Table;
+use eigenring_figure::{Colour, ColourMap, ColourScale, Figure, Panel, Stroke, Surface, View, Width};
+
+pub const ENTRY: Entry = Entry {
+    name: "second-order-maps",
+    title: "cup and saddles in space, coloured by the Gauss curvature, wrong signs outlined; rows: schemes",
+    reference: "Ma, Wang and Ma 2023, Fig. 4b",
+    valences: &[3, 6, 20],
+    lambdas: &[],
+    schemes: Some(&["catmull-clark", "lambda:optimal"]),
+    range: false,
+    colours: Some((-2.0, 2.0)),
+    studies: false,
+    width: Width::Two,
+    build,
+};
+
+/// Names of the maps.
+const MAPS: [&str; 3] = ["cup", "saddle 1", "saddle 2"];
+/// Signs of K* on quadratics.
+const SIGNS: [f64; 3] = [1.0, -1.0, -1.0];
+/// The vertical extent of a surface whose rim has radius 1.
+const HEIGHT: f64 = 0.75;
+/// Looks into the cup, and at a corner of neither saddle.
+const VIEW: View = View {
+    azimuth: -55.0,
+    elevation: 40.0,
+};
+/// Room for the colour bar, in millimetres.
+const BAR: f64 = 16.0;
+/// The height of a panel relative to its width, as this view needs.
+const ASPECT: f64 = 0.8;
+/// Annuli on which the boundaries of patches are drawn.
+const LINED: usize = 3;
+/// Annuli on which wrong signs are outlined.
+const OUTLINED: usize = 8;
+/// The lowest figure, in millimetres: the label of the colour bar fits beside it.
+const LOWEST: f64 = 66.0;
+/// Cells of a figure, about.
+const CELLS: f64 = 24_000.0;
+/// Steps of the tables along the edge of a patch.
+const STEPS: usize = 4;
+
+fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
+    inputs.valences.iter().map(|&valence| draw(valence, inputs)).collect()
+}
+
+fn draw(valence: usize, inputs: &Inputs<'_>) -> Result<Drawing, Error> {
+    let subjects = chosen(inputs, valence)?;
+    let inner = common_inner(subjects.iter().map(|subject| &subject.scheme))?;
+    let cells = resolution(9 * inner * inner * valence * subjects.len(), CELLS);
+    let scale = ColourScale::new(
+        ColourMap::Diverging,
+        inputs.colours.unwrap_or_default(),
+        "$K^*$ / mean |$K^*$|  (outlined: wrong sign)",
+    );
+    let grid = Grid::new(subjects.len(), 3, inputs.width, BAR, NARROWEST);
+    let height = grid.height(ASPECT * grid.across).max(LOWEST);
+    let description = format!("Second-order maps of valence {valence}");
+    let mut figure = Figure::new(inputs.width, height, description).colour_bar(&scale);
+    let mut table = Table::new([
+        "scheme", "valence", "lambda", "map", "mu", "u", "v", "x", "y", "z", "gauss",
+    ]);
+    for (row, subject) in subjects.iter().enumerate() {
+        let sheets = Sheet::second_order(&subject.scheme, inner, cells)?;
+        for (which, sheet) in sheets.iter().enumerate() {
+            let (at_row, at_column) = grid.place(row, which);
+            let panel = Panel::new(surface(sheet, SIGNS[which], &scale));
+            figure = figure.panel(
+                at_row,
+                at_column,
+                panel.title(format!("{}: {}", subject.title, MAPS[which])),
+            );
+        }
+        for (which, sheet) in Sheet::second_order(&subject.scheme, inner, STEPS)?.iter().enumerate() {
+            for (u, v, point) in sheet.sector_points() {
+                table.push(vec![
+                    subject.name.as_str().into(),
+                    valence.into(),
+                    sheet.factors.plane.into(),
+                    MAPS[which].into(),
+                    sheet.factors.height.into(),
+                    u.into(),
+                    v.into(),
+                    point.x.into(),
+                    point.y.into(),
+                    point.z.into(),
+                    point.value.into(),
+                ]);
+            }
+        }
+    }
+    Ok(Drawing {
+        stem: format!("{}-n{valence}", ENTRY.name),
+        figure,
+        data: vec![("", table)],
+    })
+}
+
+fn surface(sheet: &Sheet, sign: f64, scale: &ColourScale) -> Surface {
+    let radius = sheet.radius();
+    let (low, high) = sheet.heights();
+    // the cup stands upright, whichever sign its mode has
+    let upright = if sign > 0.0 && high < -low { -1.0 } else { 1.0 };
+    let vertical = upright * if high > low { HEIGHT / (high - low) } else { 1.0 };
+    let place = |point: Point| [point.x / radius, point.y / radius, vertical * point.z];
+    let annuli = sheet.all();
+    let fan = annuli.last().into_iter().flat_map(Sheet::fan);
+    let quads = annuli.iter().flat_map(Sheet::quads).chain(fan).map(|quad| {
+        let value = quad.iter().map(|corner| corner.value).sum::<f64>() / 4.0;
+        (quad.map(place), value)
+    });
+    // a disc needs less room than the square around it
+    let disc = 0.74;
+    let mut surface = Surface::new(VIEW)
+        .quads(quads, scale)
+        .within([[-disc, -disc, vertical * low], [disc, disc, vertical * high]]);
+    for (level, annulus) in annuli.iter().enumerate().take(LINED) {
+        let thin = Stroke::solid(Colour::GREY, 0.07 * sheet.factors.plane.powi(level as i32));
+        for line in annulus.edges() {
+            surface = surface.line(line.into_iter().map(place), thin);
+        }
+    }
+    for (level, annulus) in annuli.iter().enumerate().take(OUTLINED) {
+        let bold = Stroke::solid(Colour::INK, 0.3 * sheet.factors.plane.powi(level as i32));
+        for segment in annulus.zero_lines(sign) {
+            surface = surface.line(segment.map(place), bold);
+        }
+    }
+    surface
+}

@@ -1,0 +1,98 @@
+//! What the panels of a map show: a scheme at a valence, with the words above it.
+
+use super::Inputs;
+use crate::error::Error;
+use crate::schemes::{SchemeArg, Tuner};
+use eigenring_scheme::{Scheme, Spec};
+use eigenring_tune::study::{LAMBDA_A, LAMBDA_M};
+
+/// A scheme around a centre.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    /// What it is called, with markup, without the valence.
+    pub title: String,
+    /// What it is called in tables.
+    pub name: String,
+    /// The valence.
+    pub valence: usize,
+    /// The scheme.
+    pub scheme: Scheme<f64>,
+}
+
+impl Subject {
+    fn new(argument: &SchemeArg, valence: usize) -> Result<Self, Error> {
+        let title = match argument {
+            SchemeArg::Spec(Spec::CatmullClark) => "Catmull-Clark".to_owned(),
+            SchemeArg::Spec(Spec::DooSabin) => "Doo-Sabin".to_owned(),
+            SchemeArg::Spec(Spec::Tension { order, u0 }) if *u0 == 1.0 => format!("tension, order {order}"),
+            SchemeArg::Spec(Spec::Tension { order, u0 }) => format!("tension, order {order}, $u_0$ = {u0}"),
+            SchemeArg::Spec(Spec::LambdaOptimal | Spec::Lambda { .. }) => {
+                let lambda = argument
+                    .lambda_point(valence)?
+                    .map_or(f64::NAN, |point| point.plane.lambda);
+                let symbol = match argument {
+                    SchemeArg::Spec(Spec::LambdaOptimal) => "$λ_C^*$",
+                    _ => "$λ$",
+                };
+                format!("{symbol} = {}", four(lambda))
+            }
+            SchemeArg::File(path) => path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+        };
+        let scheme = argument.scheme(valence)?;
+        Ok(Subject {
+            title,
+            name: scheme.name.clone(),
+            valence,
+            scheme,
+        })
+    }
+
+    /// The title with the valence.
+    pub fn full_title(&self) -> String {
+        format!("$N$ = {}, {}", self.valence, self.title)
+    }
+}
+
+/// Four decimals, without trailing zeros.
+fn four(number: f64) -> String {
+    let text = format!("{number:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// The chosen schemes at one valence.
+pub fn chosen(inputs: &Inputs<'_>, valence: usize) -> Result<Vec<Subject>, Error> {
+    let schemes = inputs.schemes.iter();
+    schemes.map(|argument| Subject::new(argument, valence)).collect()
+}
+
+/// The lambda-scheme at five featured lambdas, ascending: 0.35, lambda_A*, lambda_M*, lambda_C* and half way from there to lambda_r2
+/// (Ma, Wang and Ma 2023, Fig. 10); four where no lambda_r2 is known.
+pub fn featured(inputs: &Inputs<'_>, valence: usize) -> Result<Vec<Subject>, Error> {
+    let tuner = Tuner::default();
+    let optimal = tuner.optimal(valence)?.plane.lambda;
+    let mut shown = vec![
+        ("$λ$", 0.35),
+        ("$λ_A^*$", LAMBDA_A),
+        ("$λ_M^*$", LAMBDA_M),
+        ("$λ_C^*$", optimal),
+    ];
+    if let Some(entry) = inputs.studies.entry(valence)? {
+        shown.push(("$λ_C^* + Δλ$", optimal + 0.5 * (entry.lambda_r2 - optimal)));
+    }
+    shown.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let subject = |(symbol, lambda)| {
+        let spec = Spec::Lambda {
+            lambda,
+            s: None,
+            weights: None,
+        };
+        let scheme = SchemeArg::Spec(spec).scheme(valence)?;
+        Ok(Subject {
+            title: format!("{symbol} = {}", four(lambda)),
+            name: scheme.name.clone(),
+            valence,
+            scheme,
+        })
+    };
+    shown.into_iter().map(subject).collect()
+}
