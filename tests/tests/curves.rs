@@ -149,7 +149,7 @@ fn the_family_at_valence_four_is_the_grid() {
 fn de_boor(order: usize, points: &[[f64; 2]], t: f64) -> [f64; 2] {
     let degree = order - 1;
     // point i has support from i + shift to i + shift + order
-    let shift = (if order % 2 == 0 { 0.0 } else { 0.5 }) - order as f64 / 2.0;
+    let shift = 0.5 * (order % 2) as f64 - order as f64 / 2.0;
     let last = points.len() - 1;
     let span = ((t - shift).floor() as usize).clamp(degree, last);
     let mut d: Vec<[f64; 2]> = points[span - degree..=span].to_vec();
@@ -157,9 +157,7 @@ fn de_boor(order: usize, points: &[[f64; 2]], t: f64) -> [f64; 2] {
         for j in (r..=degree).rev() {
             let left = (span - degree + j) as f64 + shift;
             let alpha = (t - left) / (order - r) as f64;
-            for c in 0..2 {
-                d[j][c] = (1.0 - alpha) * d[j - 1][c] + alpha * d[j][c];
-            }
+            d[j] = std::array::from_fn(|c| (1.0 - alpha) * d[j - 1][c] + alpha * d[j][c]);
         }
     }
     d[degree]

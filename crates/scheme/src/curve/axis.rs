@@ -155,8 +155,12 @@ impl Axis {
 
     /// The weights at `per_interval` equally spaced parameters of each interval, and at the end of the domain: (parameter,
     /// weights). The basis is evaluated `per_interval + 1` times only.
-    pub fn samples(&self, per_interval: usize) -> Vec<(f64, Vec<(usize, f64)>)> {
+    ///
+    /// # Errors
+    /// [`Error::ControlPoints`] if there would be too many samples.
+    pub fn samples(&self, per_interval: usize) -> Result<Vec<(f64, Vec<(usize, f64)>)>, Error> {
         let per_interval = per_interval.max(1);
+        room(self.intervals().saturating_mul(per_interval), self.order())?;
         let fraction = |j: usize| j as f64 / per_interval as f64;
         let values: Vec<Vec<f64>> = (0..=per_interval).map(|j| self.basis.values(fraction(j))).collect();
         let at = |interval: usize, j: usize| {
@@ -164,11 +168,11 @@ impl Axis {
             (t, self.weights_in(interval, &values[j]))
         };
         let intervals = self.intervals();
-        (0..intervals)
+        Ok((0..intervals)
             .flat_map(|interval| (0..per_interval).map(move |j| (interval, j)))
             .chain([(intervals - 1, per_interval)])
             .map(|(interval, j)| at(interval, j))
-            .collect()
+            .collect())
     }
 
     /// One level of refinement of `count` rows of `width` numbers each, which lie one after the other in `values`.

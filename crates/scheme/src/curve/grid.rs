@@ -98,9 +98,9 @@ impl Grid {
     /// parameter of the first direction a row of points along the second.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] if coordinates overflow.
+    /// [`Error::NotFinite`] if coordinates overflow, [`Error::ControlPoints`] if there would be too many.
     pub fn sample(&self, per_interval: usize) -> Result<Vec<Vec<Vec<f64>>>, Error> {
-        let (rows, columns) = (self.u.samples(per_interval), self.v.samples(per_interval));
+        let (rows, columns) = (self.u.samples(per_interval)?, self.v.samples(per_interval)?);
         let row = |weights: &[(usize, f64)]| columns.iter().map(|(_, v)| self.combine(weights, v)).collect();
         rows.iter().map(|(_, weights)| row(weights)).collect()
     }

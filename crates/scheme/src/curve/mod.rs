@@ -46,3 +46,8 @@ pub enum Ends {
     /// The last point is followed by the first.
     Closed,
 }
+
+/// The page's program is compiled and run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../../../../docs/curves.md")]
+struct Page;

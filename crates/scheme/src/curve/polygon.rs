@@ -75,9 +75,9 @@ impl Curve {
     /// with its parameter. The last point of a closed curve is its first.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] if coordinates overflow.
+    /// [`Error::NotFinite`] if coordinates overflow, [`Error::ControlPoints`] if there would be too many.
     pub fn sample(&self, per_interval: usize) -> Result<Vec<(f64, Vec<f64>)>, Error> {
-        let samples = self.axis.samples(per_interval).into_iter();
+        let samples = self.axis.samples(per_interval)?.into_iter();
         samples.map(|(t, weights)| Ok((t, self.combine(&weights)?))).collect()
     }
 

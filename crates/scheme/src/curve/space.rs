@@ -20,14 +20,16 @@
 use super::{Angle, Axis, Basis, Curve, Ends, Tension};
 use crate::Error;
 
-/// A function `a_0 + a_1 t + .. + c cos w t + s sin w t`, hyperbolic if the space is.
+/// A function `a_0 + a_1 x + .. + c cos w x + s sin w x` of `x = t - origin`, hyperbolic if the space is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Function {
-    /// Coefficients of the powers of t, lowest first.
+    /// Where x = 0. High powers are accurate near it.
+    pub origin: f64,
+    /// Coefficients of the powers of x, lowest first.
     pub polynomial: Vec<f64>,
-    /// The coefficient of `cos w t` or `cosh w t`.
+    /// The coefficient of `cos w x` or `cosh w x`.
     pub cosine: f64,
-    /// The coefficient of `sin w t` or `sinh w t`.
+    /// The coefficient of `sin w x` or `sinh w x`.
     pub sine: f64,
 }
 
@@ -72,11 +74,12 @@ impl Space {
 
     /// The value of a function at t.
     pub fn value(&self, function: &Function, t: f64) -> f64 {
-        let polynomial = function.polynomial.iter().rev().fold(0.0, |sum, a| sum * t + a);
+        let x = t - function.origin;
+        let polynomial = function.polynomial.iter().rev().fold(0.0, |sum, a| sum * x + a);
         let (even, odd) = match self.tension.angle() {
             Angle::Polynomial => (1.0, 0.0),
-            Angle::Trigonometric(w) => ((w * t).cos(), (w * t).sin()),
-            Angle::Hyperbolic(w) => ((w * t).cosh(), (w * t).sinh()),
+            Angle::Trigonometric(w) => ((w * x).cos(), (w * x).sin()),
+            Angle::Hyperbolic(w) => ((w * x).cosh(), (w * x).sinh()),
         };
         let term = |coefficient: f64, value: f64| if coefficient == 0.0 { 0.0 } else { coefficient * value };
         polynomial + term(function.cosine, even) + term(function.sine, odd)
@@ -98,8 +101,8 @@ impl Space {
     /// [`Error::NotReproduced`] if f is not a function of the space, or not finite.
     pub fn control(&self, f: &Function) -> Result<Function, Error> {
         let refuse = |reason| Err(Error::NotReproduced { reason });
-        let coefficients = [f.cosine, f.sine];
-        if !f.polynomial.iter().chain(&coefficients).all(|a| a.is_finite()) {
+        let others = [f.cosine, f.sine, f.origin];
+        if !f.polynomial.iter().chain(&others).all(|a| a.is_finite()) {
             return refuse("its coefficients are finite".into());
         }
         let used = f.polynomial.iter().rposition(|&a| a != 0.0).map_or(0, |last| last + 1);
@@ -107,7 +110,7 @@ impl Space {
             return refuse(format!("its degree is at most {}", self.degree()));
         }
         let factor = self.factor();
-        let oscillates = coefficients != [0.0, 0.0];
+        let oscillates = (f.cosine, f.sine) != (0.0, 0.0);
         if oscillates && self.tension.angle() == Angle::Polynomial {
             return refuse("it is a polynomial where u0 = 1".into());
         }
@@ -118,7 +121,9 @@ impl Space {
             ));
         }
         let part = |coefficient: f64| if coefficient == 0.0 { 0.0 } else { coefficient / factor };
+        // a convolution commutes with shifts
         Ok(Function {
+            origin: f.origin,
             polynomial: self.undo(&f.polynomial[..used]),
             cosine: part(f.cosine),
             sine: part(f.sine),
