@@ -8,6 +8,10 @@ use crate::families::MAX_ORDER;
 /// The most numbers that a polygon or grid may hold, 1 GiB: refinement beyond that is refused and not attempted.
 const MAX_NUMBERS: usize = 1 << 27;
 
+/// A combination of control points: their indices and weights. A closed polygon of fewer points than its order names some
+/// more than once.
+pub type Weights = Vec<(usize, f64)>;
+
 /// Order, tension, ends and number of points, at one level of refinement; the control points themselves are elsewhere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
@@ -131,7 +135,7 @@ impl Axis {
     ///
     /// # Errors
     /// [`Error::OutsideSpline`] if t is outside of an open domain, or not finite.
-    pub fn weights(&self, t: f64) -> Result<Vec<(usize, f64)>, Error> {
+    pub fn weights(&self, t: f64) -> Result<Weights, Error> {
         let (lower, upper) = match self.ends {
             Ends::Open => self.domain(),
             Ends::Closed => (f64::MIN, f64::MAX),
@@ -149,7 +153,7 @@ impl Axis {
         Ok(self.weights_in(interval as usize, &self.basis.values(place - interval)))
     }
 
-    fn weights_in(&self, interval: usize, values: &[f64]) -> Vec<(usize, f64)> {
+    fn weights_in(&self, interval: usize, values: &[f64]) -> Weights {
         self.active(interval).zip(values.iter().copied()).collect()
     }
 
@@ -158,7 +162,7 @@ impl Axis {
     ///
     /// # Errors
     /// [`Error::ControlPoints`] if there would be too many samples.
-    pub fn samples(&self, per_interval: usize) -> Result<Vec<(f64, Vec<(usize, f64)>)>, Error> {
+    pub fn samples(&self, per_interval: usize) -> Result<Vec<(f64, Weights)>, Error> {
         let per_interval = per_interval.max(1);
         room(self.intervals().saturating_mul(per_interval), self.order())?;
         let fraction = |j: usize| j as f64 / per_interval as f64;

@@ -66,7 +66,7 @@ impl Basis {
 
     /// The k functions that do not vanish between two knots, at the fraction `0 <= f <= 1` of the way: the weights of k
     /// consecutive points in the limit point there.
-    pub fn values(&self, f: f64) -> Vec<f64> {
+    pub(super) fn values(&self, f: f64) -> Vec<f64> {
         let mut values = vec![0.0; self.order];
         for (y, weight) in self.average(f) {
             // the place f - y lies in the interval before (its functions are the first k-2), in this one, or in the next

@@ -31,7 +31,7 @@ mod rule;
 mod space;
 mod tension;
 
-pub use axis::Axis;
+pub use axis::{Axis, Weights};
 pub use basis::Basis;
 pub use grid::Grid;
 pub use polygon::Curve;

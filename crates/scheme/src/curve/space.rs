@@ -72,7 +72,7 @@ impl Space {
         }
     }
 
-    /// The value of a function at t.
+    /// The value of a function at t; not finite if t is not, or where it overflows.
     pub fn value(&self, function: &Function, t: f64) -> f64 {
         let x = t - function.origin;
         let polynomial = function.polynomial.iter().rev().fold(0.0, |sum, a| sum * x + a);
