@@ -5,6 +5,7 @@
 //! [`Net`]. Families are constructors in [`families`] and [`lambda`]; user schemes come from TOML through [`user`];
 //! [`Spec`] finds a scheme by name. All of it is generic over the [`Scalar`].
 
+pub mod curve;
 mod dual;
 mod error;
 pub mod families;

@@ -1,0 +1,264 @@
+//! The basis of the limit curves.
+//!
+//! One level multiplies the generating function of the points by `(1+z)^(k-2) (1 + 2 u z + z^2) / (2^(k-2) (1+u))`. Over all
+//! levels each factor `(1+z)/2` becomes the box function of width 1, and the last factor, since `u_l` halves its angle, the
+//! generalised hat of unit area
+//!
+//! ```text
+//! H(y) = w sin(w (1-|y|)) / (2 (1 - cos w)),   1 - |y|,   w sinh(w (1-|y|)) / (2 (cosh w - 1)),    |y| <= 1
+//! ```
+//!
+//! for `u = cos(w/2), 1, cosh(w/2)`. The limit of a single 1 is their convolution, `B_k = H * N_{k-2}`, where `N_{k-2}` is the
+//! uniform polynomial B-spline of k-2 intervals: **the basis of order k is the polynomial one of order k-2, averaged over H**.
+//! It is even, has support `[-k/2, k/2]` and k-2 continuous derivatives, and its shifts sum to one. For `u >= 0` it is positive.
+//!
+//! The average is taken by Gauss-Legendre quadrature between the knots. The integrand there is a polynomial of degree k-3 times
+//! an exponential function of a range of at most `2 pi` ([`ARC`]), so that the rule's error is below rounding ([`Basis::new`]).
+//! All terms have one sign for `u >= 0`; nothing cancels for any u near 1, where closed forms by powers and sines would.
+
+use super::{Angle, Tension};
+
+/// The longest piece of quadrature, in units of `1/w`.
+const ARC: f64 = std::f64::consts::TAU;
+
+/// Where a hyperbolic hat ends, in units of `1/w`: `exp(-48) < 2e-21` of its area is beyond.
+const REACH: f64 = 48.0;
+
+/// The basis of order k and one tension.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Basis {
+    order: usize,
+    tension: Tension,
+    /// Gauss-Legendre nodes and weights on [0, 1].
+    rule: Vec<(f64, f64)>,
+}
+
+impl Basis {
+    /// The basis of an order of at least 3.
+    ///
+    /// The n nodes are exact to degree `2n-1 >= k-3+24`. On a piece of length `2 pi/w` the best approximation of degree 24 to
+    /// `exp(i w y)` or `exp(w y)` has an error of about `2 (pi/2)^25 / 25! = 1e-20`.
+    pub(super) fn new(order: usize, tension: Tension) -> Self {
+        Basis {
+            order,
+            tension,
+            rule: gauss_legendre((order + 23) / 2),
+        }
+    }
+
+    /// The same order with another tension.
+    pub(super) fn with_tension(&self, tension: Tension) -> Self {
+        Basis {
+            tension,
+            ..self.clone()
+        }
+    }
+
+    /// The order k.
+    pub fn order(&self) -> usize {
+        self.order
+    }
+
+    /// The tension.
+    pub fn tension(&self) -> Tension {
+        self.tension
+    }
+
+    /// The k functions that do not vanish between two knots, at the fraction `0 <= f <= 1` of the way: the weights of k
+    /// consecutive points in the limit point there.
+    pub(super) fn values(&self, f: f64) -> Vec<f64> {
+        let mut values = vec![0.0; self.order];
+        for (y, weight) in self.average(f) {
+            // the place f - y lies in the interval before (its functions are the first k-2), in this one, or in the next
+            let interval = (f - y).floor().clamp(-1.0, 1.0);
+            let offset = (interval + 1.0) as usize;
+            let fraction = f - y - interval;
+            for (sum, value) in values[offset..].iter_mut().zip(polynomial(self.order - 2, fraction)) {
+                *sum += weight * value;
+            }
+        }
+        values
+    }
+
+    /// The limit point at a control point's own parameter as an average of it and its neighbours: the values at a knot for
+    /// even orders, half way between two for odd ones. An odd number of weights, symmetric.
+    pub fn mask(&self) -> Vec<f64> {
+        if self.order.is_multiple_of(2) {
+            let mut mask = self.values(0.0);
+            mask.pop();
+            mask
+        } else {
+            self.values(0.5)
+        }
+    }
+
+    /// `integral of y^m H(y)`, the moments of the hat, for m = 0 .. count-1.
+    pub(super) fn hat_moments(&self, count: usize) -> Vec<f64> {
+        let mut moments = vec![0.0; count];
+        for (y, weight) in self.average(0.0) {
+            let mut power = weight;
+            for moment in &mut moments {
+                *moment += power;
+                power *= y;
+            }
+        }
+        moments
+    }
+
+    /// Nodes y in `[-1, 1]` and weights, H(y) included, of the average at the fraction f. Weights sum to one.
+    fn average(&self, f: f64) -> Vec<(f64, f64)> {
+        let w = match self.tension.angle() {
+            Angle::Polynomial => 0.0,
+            Angle::Trigonometric(w) | Angle::Hyperbolic(w) => w,
+        };
+        let reach = match self.tension.angle() {
+            Angle::Hyperbolic(w) => (REACH / w).min(1.0),
+            _ => 1.0,
+        };
+        let mut nodes = Vec::new();
+        for (side, knot) in [(1.0, f), (-1.0, 1.0 - f)] {
+            for (from, to) in [(0.0, knot.min(reach)), (knot.min(reach), reach)] {
+                let parts = (w * (to - from) / ARC).ceil().max(1.0);
+                let length = (to - from) / parts;
+                for part in 0..parts as usize {
+                    for &(x, weight) in &self.rule {
+                        let a = from + (part as f64 + x) * length;
+                        nodes.push((side * a, weight * length * self.hat(a)));
+                    }
+                }
+            }
+        }
+        nodes
+    }
+
+    /// H at `0 <= a <= 1`.
+    fn hat(&self, a: f64) -> f64 {
+        let u = self.tension.value();
+        match self.tension.angle() {
+            Angle::Polynomial => 1.0 - a,
+            // 2 (1 - cos w) = 4 (1 - u^2)
+            Angle::Trigonometric(w) => w * (w * (1.0 - a)).sin() / (4.0 * (1.0 - u) * (1.0 + u)),
+            // sinh and cosh without their common growth
+            Angle::Hyperbolic(w) => {
+                let fall = (-w).exp_m1();
+                w / 2.0 * (-w * a).exp() * -(-2.0 * w * (1.0 - a)).exp_m1() / (fall * fall)
+            }
+        }
+    }
+}
+
+/// The uniform polynomial B-splines of `order` that do not vanish on an interval, at a fraction of it (Cox 1972, de Boor
+/// 1972); the one that ends there comes first.
+fn polynomial(order: usize, fraction: f64) -> Vec<f64> {
+    let mut values = vec![1.0];
+    for degree in 1..order {
+        let inverse = 1.0 / degree as f64;
+        values.push(0.0);
+        for j in (0..=degree).rev() {
+            // the distances to both ends of the support
+            let rising = (fraction + (degree - j) as f64) * inverse;
+            let before = if j > 0 { values[j - 1] } else { 0.0 };
+            let falling = (1.0 - fraction + j as f64) * inverse;
+            values[j] = rising * before + falling * values[j];
+        }
+    }
+    values
+}
+
+/// Nodes and weights on [0, 1], by Newton's method on the Legendre polynomial from Tricomi's estimate.
+fn gauss_legendre(count: usize) -> Vec<(f64, f64)> {
+    let n = count as f64;
+    let nodes = (0..count).map(|i| {
+        let mut x = (std::f64::consts::PI * (i as f64 + 0.75) / (n + 0.5)).cos();
+        let mut slope = 1.0;
+        // quadratic convergence from an error of n^-4: four steps are enough, one more costs nothing
+        for _ in 0..6 {
+            let (mut previous, mut value) = (1.0, x);
+            for degree in 2..=count {
+                let d = degree as f64;
+                (previous, value) = (value, ((2.0 * d - 1.0) * x * value - (d - 1.0) * previous) / d);
+            }
+            slope = n * (previous - x * value) / (1.0 - x * x);
+            x -= value / slope;
+        }
+        ((1.0 - x) / 2.0, 1.0 / ((1.0 - x * x) * slope * slope))
+    });
+    nodes.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TENSIONS: [f64; 13] = [
+        -0.9,
+        -0.3,
+        0.0,
+        0.01,
+        0.7,
+        1.0 - 1e-9,
+        1.0 - 2e-16,
+        1.0,
+        1.0 + 1e-12,
+        2.0,
+        50.0,
+        1e6,
+        1e300,
+    ];
+
+    #[test]
+    fn quadrature_is_exact_for_its_degree() {
+        for count in [3, 13, 27] {
+            let rule = gauss_legendre(count);
+            for degree in 0..2 * count {
+                let sum: f64 = rule.iter().map(|(x, w)| w * x.powi(degree as i32)).sum();
+                assert!(
+                    (sum * (degree + 1) as f64 - 1.0).abs() < 1e-13,
+                    "{count} nodes, degree {degree}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn functions_sum_to_one_and_are_positive() {
+        for order in 3..=32 {
+            for u in TENSIONS {
+                let basis = Basis::new(order, Tension::new(u).unwrap());
+                for f in [0.0, 1.0 / 1024.0, 0.125, 0.5, 0.6875, 1.0] {
+                    let values = basis.values(f);
+                    let sum: f64 = values.iter().sum();
+                    assert!(
+                        (sum - 1.0).abs() < 1e-14 / (1.0 + u).min(1.0),
+                        "order {order}, u = {u}, f = {f}: {sum}"
+                    );
+                    assert!(u < 0.0 || values.iter().all(|&v| v >= 0.0), "order {order}, u = {u}");
+                    let mirrored = basis.values(1.0 - f);
+                    for (a, b) in values.iter().zip(mirrored.iter().rev()) {
+                        assert!((a - b).abs() < 1e-14 / (1.0 + u).min(1.0), "order {order}, u = {u}");
+                    }
+                }
+                let mask = basis.mask();
+                assert!(mask.len() % 2 == 1 && mask.len() + 1 - order % 2 == order);
+                assert!((mask.iter().sum::<f64>() - 1.0).abs() < 1e-14 / (1.0 + u).min(1.0));
+            }
+        }
+    }
+
+    #[test]
+    fn the_functions_end_continuously() {
+        for order in 3..=32 {
+            for u in TENSIONS {
+                let basis = Basis::new(order, Tension::new(u).unwrap());
+                let (end, start) = (basis.values(1.0), basis.values(0.0));
+                assert!(end[0].abs() < 1e-15 && start[order - 1].abs() < 1e-15);
+                for j in 1..order {
+                    assert!(
+                        (end[j] - start[j - 1]).abs() < 1e-14 / (1.0 + u).min(1.0),
+                        "order {order}, u = {u}"
+                    );
+                }
+            }
+        }
+    }
+}
