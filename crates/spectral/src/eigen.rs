@@ -54,7 +54,7 @@ pub struct Eigenspace {
     pub left: Vec<Vec<Complex<f64>>>,
 }
 
-fn modulus(value: Complex<f64>) -> f64 {
+pub(crate) fn modulus(value: Complex<f64>) -> f64 {
     value.0.hypot(value.1)
 }
 

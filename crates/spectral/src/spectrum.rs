@@ -25,7 +25,8 @@ impl Eigenvalue {
         self.value.0.hypot(self.value.1)
     }
 
-    fn is_close(&self, other: &Eigenvalue) -> bool {
+    /// Whether two eigenvalues of different blocks are the same, up to rounding.
+    pub fn is_close(&self, other: &Eigenvalue) -> bool {
         let distance = (self.value.0 - other.value.0).hypot(self.value.1 - other.value.1);
         distance <= SAME * self.modulus().max(other.modulus())
     }
