@@ -37,7 +37,10 @@ fn expectation(family: &str) -> Option<Expectation> {
         },
         "doo-sabin" => Expectation {
             form: |_| (Lattice::Face, 2, 0),
-            lambda: |_, _| Some(0.5),
+            lambda: |spec, n| match *spec {
+                Spec::DooSabin => Some(0.5),
+                _ => Some(order_three_lambda(n)),
+            },
             more: |_| Vec::new(),
         },
         "lambda" => Expectation {
@@ -63,31 +66,35 @@ fn expectation(family: &str) -> Option<Expectation> {
                 points.collect()
             },
         },
-        "tension" => Expectation {
-            form: |spec| {
-                let order = order(spec);
-                match order % 2 {
-                    0 => (Lattice::Vertex, order - 1, order / 2 - 1),
-                    _ => (Lattice::Face, order - 1, (order - 3) / 2),
-                }
-            },
-            // the limit level is that of u = 1
-            lambda: |spec, n| match (order(spec), n) {
-                (_, 4) => Some(0.5),
-                (3, _) => Some((3.0 * n as f64 - 4.0 + 4.0 * (TAU / n as f64).cos()) / (4.0 * n as f64)),
-                (4, _) => Some(catmull_clark_lambda(n)),
-                _ => None,
-            },
-            more: |_| [8, 11].map(|order| Spec::Tension { order, u0: 0.1 }).to_vec(),
-        },
+        "tension" => of_tension(|_| [8, 11].map(|order| Spec::Tension { order, u0: 0.1 }).to_vec()),
+        "stam" => of_tension(|_| [3, 4, 5, 9].map(|order| Spec::Stam { order }).to_vec()),
+        "morin" => of_tension(|_| [0.01, 1.0, 50.0].map(|u0| Spec::Morin { u0 }).to_vec()),
         _ => return None,
     })
 }
 
-fn order(spec: &Spec) -> usize {
-    match *spec {
-        Spec::Tension { order, .. } => order,
-        _ => unreachable!("asked of the tension family only"),
+fn order_three_lambda(n: usize) -> f64 {
+    (3.0 * n as f64 - 4.0 + 4.0 * (TAU / n as f64).cos()) / (4.0 * n as f64)
+}
+
+/// What the tension scheme claims, under any of its names.
+fn of_tension(more: fn(usize) -> Vec<Spec>) -> Expectation {
+    fn order(spec: &Spec) -> usize {
+        spec.order_and_tension().expect("a case of the tension scheme").0
+    }
+    Expectation {
+        form: |spec| match order(spec) {
+            even if even % 2 == 0 => (Lattice::Vertex, even - 1, even / 2 - 1),
+            odd => (Lattice::Face, odd - 1, (odd - 3) / 2),
+        },
+        // the limit level is that of u = 1
+        lambda: |spec, n| match (order(spec), n) {
+            (_, 4) => Some(0.5),
+            (3, _) => Some(order_three_lambda(n)),
+            (4, _) => Some(catmull_clark_lambda(n)),
+            _ => None,
+        },
+        more,
     }
 }
 

@@ -19,6 +19,7 @@ mod results;
 mod run;
 mod schemes;
 mod table;
+mod tension;
 
 use clap::Parser;
 use error::Error;

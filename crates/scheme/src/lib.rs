@@ -9,6 +9,7 @@ pub mod curve;
 mod dual;
 mod error;
 pub mod families;
+mod fourier;
 pub mod lambda;
 mod line;
 mod net;
@@ -25,8 +26,9 @@ pub mod user;
 
 pub use dual::Dual;
 pub use error::Error;
+pub use fourier::{Complex, Form, FourierNet};
 pub use line::Line;
-pub use net::{Complex, DenseNet, FourierNet, Net, PointNet, refine};
+pub use net::{DenseNet, Net, Plan, PointNet, refine};
 pub use number::Number;
 pub use one_ring::OneRing;
 pub use pass::{Level, Pass};

@@ -73,6 +73,22 @@ impl<S: Scalar> Level<S> {
         self.passes.first().map_or(Lattice::Vertex, |pass| pass.from)
     }
 
+    /// The site that stands for `site` and all places that the symmetries of the rules exchange with it.
+    pub fn orbit(&self, site: Site) -> Site {
+        let Site {
+            mut sector,
+            mut x,
+            mut y,
+        } = site;
+        if self.symmetric {
+            sector = 0;
+            if self.mirror && x < y {
+                (x, y) = (y, x);
+            }
+        }
+        Site { sector, x, y }
+    }
+
     fn special(&self, pass: usize, site: Site) -> Option<Stencil<S>> {
         let special = &self.passes[pass].special;
         if self.symmetric {

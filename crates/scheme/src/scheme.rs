@@ -66,19 +66,23 @@ impl<S: Scalar> Scheme<S> {
     pub fn closed_rings(&self) -> Result<usize, Error> {
         // a face net closes with ring 0 at the earliest, a vertex net with ring 1: the centre alone never determines a patch
         let first = 1 - self.lattice().parity() as usize;
-        for rings in first..=64 {
+        // the outermost ring read grows with the ring made, so that iterating it from below ends at the smallest closed one
+        let mut rings = first;
+        while rings <= MAX_CLOSED {
             let reach = self.reach(rings)?;
             if reach <= rings {
                 return Ok(rings);
             }
+            rings = reach;
         }
-        Err(Error::NotClosed { rings: 64 })
+        Err(Error::NotClosed { rings: MAX_CLOSED })
     }
 
-    /// The outermost control ring read by refined points of rings up to `rings`.
-    fn reach(&self, rings: usize) -> Result<usize, Error> {
-        let sites = self.representatives(rings);
-        let reach = refine(&self.limit, &ReachNet, &sites)?;
+    /// The outermost control ring read by refined points of the given ring, or by the centre.
+    fn reach(&self, ring: usize) -> Result<usize, Error> {
+        let sites = self.representatives(ring).into_iter();
+        let sites: Vec<Site> = sites.filter(|s| [0, ring].contains(&s.ring())).collect();
+        let reach = refine(&self.limit, &ReachNet { level: &self.limit }, &sites)?;
         Ok(reach.into_iter().max().unwrap_or(0))
     }
 
@@ -96,32 +100,25 @@ impl<S: Scalar> Scheme<S> {
                 passes: level.passes[first + 1..].to_vec(),
                 ..level.clone()
             };
-            for rings in 0..=level.passes.len() + 2 {
-                for site in self.representatives(rings).into_iter().filter(|s| s.ring() == rings) {
-                    let marked = if rest.passes.is_empty() {
-                        level.is_special(first, site)
-                    } else {
-                        let mark = MarkNet { level, pass: first };
-                        refine(&rest, &mark, &[site])?.into_iter().any(|marked| marked)
-                    };
-                    if marked {
-                        outermost = outermost.max(Some(rings));
-                    }
-                }
-            }
+            // each pass carries a mark one ring further at most
+            let sites = self.representatives(level.passes.len() + 2);
+            let marks = MarkNet { level, pass: first };
+            let marked = if rest.passes.is_empty() {
+                sites.iter().map(|&site| level.is_special(first, site)).collect()
+            } else {
+                refine(&rest, &marks, &sites)?
+            };
+            let rings = sites.iter().zip(marked).filter(|(_, marked)| *marked);
+            outermost = outermost.max(rings.map(|(site, _)| site.ring()).max());
         }
         Ok(outermost)
     }
 
-    /// One site of each orbit, or every site if there is no symmetry.
+    /// One site of each orbit under rotation, or every site if there is no symmetry.
     fn representatives(&self, rings: usize) -> Vec<Site> {
-        let numbering = self.numbering(rings);
-        if self.limit.symmetric {
-            let centre = (numbering.lattice == Lattice::Vertex).then_some(Site::CENTRE);
-            centre.into_iter().chain(numbering.sector_sites(0)).collect()
-        } else {
-            numbering.sites()
-        }
+        let mut sites = self.numbering(rings).sites();
+        sites.retain(|site| !self.limit.symmetric || site.sector == 0);
+        sites
     }
 
     /// The fan.
@@ -130,10 +127,15 @@ impl<S: Scalar> Scheme<S> {
     }
 }
 
-/// A point's value is the outermost control ring it depends on.
-struct ReachNet;
+/// Nets beyond this many rings are not looked at: order 32, the largest there is, closes with 15.
+const MAX_CLOSED: usize = 64;
 
-impl<S: Scalar> Net<S> for ReachNet {
+/// A point's value is the outermost control ring it depends on.
+struct ReachNet<'a, S> {
+    level: &'a Level<S>,
+}
+
+impl<S: Scalar> Net<S> for ReachNet<'_, S> {
     type Value = usize;
 
     fn zero(&self) -> usize {
@@ -145,7 +147,7 @@ impl<S: Scalar> Net<S> for ReachNet {
     }
 
     fn orbit(&self, site: Site) -> Site {
-        site
+        self.level.orbit(site)
     }
 
     fn accumulate(&self, sum: &mut usize, _weight: S, at_orbit: &usize, _site: Site) {
@@ -171,7 +173,7 @@ impl<S: Scalar> Net<S> for MarkNet<'_, S> {
     }
 
     fn orbit(&self, site: Site) -> Site {
-        site
+        self.level.orbit(site)
     }
 
     fn accumulate(&self, sum: &mut bool, _weight: S, at_orbit: &bool, _site: Site) {

@@ -33,9 +33,9 @@ pub fn registry() -> &'static [Family] {
         },
         Family {
             name: "doo-sabin",
-            usage: "doo-sabin",
-            summary: "biquadratic, around a face, original weights (Doo and Sabin 1978)",
-            examples: &["doo-sabin"],
+            usage: "doo-sabin[:uniform]",
+            summary: "biquadratic, around a face: original weights (Doo and Sabin 1978), or all far corners of a face alike, which is order 3 of the tension scheme at u = 1",
+            examples: &["doo-sabin", "doo-sabin:uniform"],
         },
         Family {
             name: "lambda",
@@ -54,6 +54,18 @@ pub fn registry() -> &'static [Family] {
                 "tension:order=6,u0=2",
             ],
         },
+        Family {
+            name: "stam",
+            usage: "stam:order=K",
+            summary: "B-spline subdivision of any order K >= 3 (Stam 2001), in the form of the tension scheme at u = 1",
+            examples: &["stam:order=6", "stam:order=7"],
+        },
+        Family {
+            name: "morin",
+            usage: "morin:u0=U",
+            summary: "bicubic with initial tension U > -1, for surfaces of revolution (Morin et al. 2001): order 4 of the tension scheme",
+            examples: &["morin:u0=0.5", "morin:u0=2"],
+        },
     ]
 }
 
@@ -64,6 +76,8 @@ pub enum Spec {
     CatmullClark,
     /// Doo-Sabin, original weights.
     DooSabin,
+    /// The biquadratic scheme whose face weights are (3N-3, 3, 1)/(4N).
+    DooSabinUniform,
     /// The lambda-scheme at its tabulated optimum.
     LambdaOptimal,
     /// The lambda-scheme at a given lambda.
@@ -82,6 +96,16 @@ pub enum Spec {
         /// The tension of the first refinement.
         u0: f64,
     },
+    /// The tension scheme at u = 1.
+    Stam {
+        /// The order.
+        order: usize,
+    },
+    /// The tension scheme of order 4.
+    Morin {
+        /// The tension of the first refinement.
+        u0: f64,
+    },
 }
 
 impl Spec {
@@ -93,7 +117,13 @@ impl Spec {
         match *self {
             Spec::CatmullClark => catmull_clark(valence),
             Spec::DooSabin => doo_sabin(valence),
-            Spec::Tension { order, u0 } => tension(valence, order, u0),
+            Spec::Tension { .. } | Spec::DooSabinUniform | Spec::Stam { .. } | Spec::Morin { .. } => {
+                let (order, u0) = self.order_and_tension().unwrap_or((4, 1.0));
+                Ok(Scheme {
+                    name: self.to_string(),
+                    ..tension(valence, order, u0)?
+                })
+            }
             Spec::LambdaOptimal | Spec::Lambda { .. } => {
                 let (plane, f2, f3) = self.lambda_point(valence)?;
                 let exact = |value| S::exact(value);
@@ -108,6 +138,17 @@ impl Spec {
                     .weights
                     .scheme(self.to_string(), valence)
             }
+        }
+    }
+
+    /// Order and initial tension, if the scheme is a case of the tension scheme.
+    pub fn order_and_tension(&self) -> Option<(usize, f64)> {
+        match *self {
+            Spec::Tension { order, u0 } => Some((order, u0)),
+            Spec::DooSabinUniform => Some((3, 1.0)),
+            Spec::Stam { order } => Some((order, 1.0)),
+            Spec::Morin { u0 } => Some((4, u0)),
+            _ => None,
         }
     }
 
@@ -135,6 +176,7 @@ impl fmt::Display for Spec {
         match self {
             Spec::CatmullClark => write!(f, "catmull-clark"),
             Spec::DooSabin => write!(f, "doo-sabin"),
+            Spec::DooSabinUniform => write!(f, "doo-sabin:uniform"),
             Spec::LambdaOptimal => write!(f, "lambda:optimal"),
             Spec::Lambda { lambda, s, weights } => {
                 write!(f, "lambda:lambda={lambda}")?;
@@ -144,6 +186,8 @@ impl fmt::Display for Spec {
                 s.map_or(Ok(()), |s| write!(f, ",s={s}"))
             }
             Spec::Tension { order, u0 } => write!(f, "tension:order={order},u0={u0}"),
+            Spec::Stam { order } => write!(f, "stam:order={order}"),
+            Spec::Morin { u0 } => write!(f, "morin:u0={u0}"),
         }
     }
 }
@@ -191,6 +235,11 @@ impl<'a> Parameters<'a> {
         }
     }
 
+    fn demand<T: FromStr>(&mut self, name: &str, without: &str) -> Result<T, Error> {
+        let value = self.take(name)?;
+        value.ok_or_else(|| self.refuse(format!("{without} is given")))
+    }
+
     fn flag(&mut self, name: &str) -> bool {
         let index = self.pairs.iter().position(|&pair| pair == (name, ""));
         index.map(|index| self.pairs.remove(index)).is_some()
@@ -223,6 +272,7 @@ impl FromStr for Spec {
         let mut parameters = Parameters::new(text, family.usage, rest)?;
         let spec = match family.name {
             "catmull-clark" => Spec::CatmullClark,
+            "doo-sabin" if parameters.flag("uniform") => Spec::DooSabinUniform,
             "doo-sabin" => Spec::DooSabin,
             "lambda" if parameters.flag("optimal") => Spec::LambdaOptimal,
             "lambda" => {
@@ -241,15 +291,16 @@ impl FromStr for Spec {
                 }
                 Spec::Lambda { lambda, s, weights }
             }
-            _ => {
-                let Some(order) = parameters.take("order")? else {
-                    return Err(parameters.refuse("no order is given"));
-                };
-                Spec::Tension {
-                    order,
-                    u0: parameters.take("u0")?.unwrap_or(1.0),
-                }
-            }
+            "morin" => Spec::Morin {
+                u0: parameters.demand("u0", "no tension")?,
+            },
+            "stam" => Spec::Stam {
+                order: parameters.demand("order", "no order")?,
+            },
+            _ => Spec::Tension {
+                order: parameters.demand("order", "no order")?,
+                u0: parameters.take("u0")?.unwrap_or(1.0),
+            },
         };
         parameters.finish()?;
         Ok(spec)
@@ -269,6 +320,35 @@ mod tests {
                 assert_eq!(spec.to_string().parse::<Spec>().unwrap(), spec);
                 assert!(spec.to_string().starts_with(family.name));
             }
+        }
+    }
+
+    #[test]
+    fn cases_of_the_tension_scheme_are_told_apart_by_name_only() {
+        for (name, same) in [
+            ("doo-sabin:uniform", "tension:order=3"),
+            ("stam:order=7", "tension:order=7"),
+            ("morin:u0=0.3", "tension:order=4,u0=0.3"),
+        ] {
+            let scheme = |text: &str| text.parse::<Spec>().unwrap().scheme::<f64>(5).unwrap();
+            let (named, general) = (scheme(name), scheme(same));
+            assert_eq!(named.name, name);
+            assert_eq!(named.leading.len(), general.leading.len());
+            for index in 0..=named.leading.len() {
+                let pairs = named.level(index).passes.iter().zip(&general.level(index).passes);
+                for (a, b) in pairs {
+                    assert!(a.line == b.line && a.special == b.special, "{name}");
+                }
+            }
+        }
+        for text in [
+            "stam:order=2",
+            "morin:u0=-1",
+            "tension:order=4,u0=nan",
+            "tension:order=33",
+        ] {
+            let error = text.parse::<Spec>().unwrap().scheme::<f64>(5).unwrap_err().to_string();
+            assert!(error.contains("accepted"), "{text}: {error}");
         }
     }
 
@@ -298,7 +378,12 @@ mod tests {
             ("lambda:lambda=0.5,f2=0.3", "together"),
             ("lambda:lambda=0.5,lambda=0.6", "twice"),
             ("lambda:optimal,s=1", "unknown"),
-            ("tension:u0=1", "order"),
+            ("tension:u0=1", "no order"),
+            ("stam", "no order"),
+            ("stam:order=6,u0=2", "unknown parameter 'u0'"),
+            ("morin", "no tension"),
+            ("morin:order=4,u0=2", "unknown parameter 'order'"),
+            ("doo-sabin:original", "unknown parameter 'original'"),
             ("tension:order=4,u=1", "unknown parameter 'u'"),
         ] {
             let error = text.parse::<Spec>().unwrap_err().to_string();

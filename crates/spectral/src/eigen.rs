@@ -54,7 +54,7 @@ pub struct Eigenspace {
     pub left: Vec<Vec<Complex<f64>>>,
 }
 
-fn modulus(value: Complex<f64>) -> f64 {
+pub(crate) fn modulus(value: Complex<f64>) -> f64 {
     value.0.hypot(value.1)
 }
 
@@ -79,23 +79,45 @@ impl Block<f64> {
     /// # Errors
     /// [`Error::NotAnEigenvalue`] if `S - value` is regular, [`Error::Decomposition`] as above.
     pub fn eigenspace(&self, value: Complex<f64>, fourier: usize) -> Result<Eigenspace, Error> {
+        match self.shifted(value) {
+            Shifted::Real(matrix) => eigenspace(matrix, value, fourier, |entry| (entry, 0.0)),
+            Shifted::Complex(matrix) => eigenspace(matrix, value, fourier, |entry| (entry.re, entry.im)),
+        }
+    }
+
+    /// The number of independent eigenvectors of the given eigenvalue: as many as [`Block::eigenspace`] has, without them.
+    ///
+    /// # Errors
+    /// [`Error::Decomposition`] as above.
+    pub fn nullity(&self, value: Complex<f64>) -> Result<usize, Error> {
+        match self.shifted(value) {
+            Shifted::Real(matrix) => nullity(matrix),
+            Shifted::Complex(matrix) => nullity(matrix),
+        }
+    }
+
+    /// `S - value`.
+    fn shifted(&self, value: Complex<f64>) -> Shifted {
         match self {
             Block::Real(matrix) if value.1 == 0.0 => {
-                let shifted = Mat::from_fn(matrix.rows(), matrix.rows(), |i, j| {
+                Shifted::Real(Mat::from_fn(matrix.rows(), matrix.rows(), |i, j| {
                     matrix[(i, j)] - if i == j { value.0 } else { 0.0 }
-                });
-                eigenspace(shifted, value, fourier, |entry| (entry, 0.0))
+                }))
             }
             _ => {
                 let matrix = self.to_complex();
-                let shifted = Mat::from_fn(matrix.rows(), matrix.rows(), |i, j| {
+                Shifted::Complex(Mat::from_fn(matrix.rows(), matrix.rows(), |i, j| {
                     let shift = if i == j { value } else { (0.0, 0.0) };
                     c64::new(matrix[(i, j)].0 - shift.0, matrix[(i, j)].1 - shift.1)
-                });
-                eigenspace(shifted, value, fourier, |entry: c64| (entry.re, entry.im))
+                }))
             }
         }
     }
+}
+
+enum Shifted {
+    Real(Mat<f64>),
+    Complex(Mat<c64>),
 }
 
 fn eigenvalues<T: ComplexField<Real = f64> + Copy>(
@@ -178,6 +200,29 @@ fn clusters(values: Vec<Complex<f64>>, radius: f64) -> Vec<BlockEigenvalue> {
         .collect()
 }
 
+/// How many of the falling singular values are not zero.
+fn rank(singular: &[f64]) -> Result<usize, Error> {
+    let largest = singular.first().copied().unwrap_or(0.0);
+    if !largest.is_finite() {
+        return Err(Error::Decomposition {
+            size: singular.len(),
+            largest,
+        });
+    }
+    // S - value = 0 only if the block is a multiple of the identity: then every vector is an eigenvector
+    let regular = singular.iter().filter(|&&s| s > NULL * largest && largest > 0.0);
+    Ok(regular.count())
+}
+
+fn nullity<T: ComplexField<Real = f64>>(shifted: Mat<T>) -> Result<usize, Error> {
+    let size = shifted.nrows();
+    let singular = shifted.singular_values().map_err(|_| Error::Decomposition {
+        size,
+        largest: f64::NAN,
+    })?;
+    Ok(size - rank(&singular)?)
+}
+
 fn eigenspace<T: ComplexField<Real = f64> + Copy>(
     shifted: Mat<T>,
     value: Complex<f64>,
@@ -190,15 +235,7 @@ fn eigenspace<T: ComplexField<Real = f64> + Copy>(
         largest: f64::NAN,
     })?;
     let singular: Vec<f64> = (0..size).map(|i| pair(svd.S().column_vector()[i]).0).collect();
-    let largest = singular.first().copied().unwrap_or(0.0);
-    if !largest.is_finite() {
-        return Err(Error::Decomposition { size, largest });
-    }
-    // S - value = 0 only if the block is a multiple of the identity: then every vector is an eigenvector
-    let rank = singular
-        .iter()
-        .filter(|&&s| s > NULL * largest && largest > 0.0)
-        .count();
+    let rank = rank(&singular)?;
     if rank == size {
         return Err(Error::NotAnEigenvalue {
             value: value.0,

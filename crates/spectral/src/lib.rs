@@ -13,6 +13,7 @@ mod eigen;
 mod error;
 mod maps;
 mod matrix;
+mod rings;
 mod spectrum;
 mod system;
 
@@ -21,5 +22,6 @@ pub use eigen::{BlockEigenvalue, EQUAL, Eigenspace, MERGED, NULL};
 pub use error::Error;
 pub use maps::{Graph, Maps};
 pub use matrix::{Block, Matrix, fourier_block, fourier_blocks, local_matrix, numbering};
+pub use rings::{Sufficient, outer};
 pub use spectrum::{Eigenvalue, Spectrum};
 pub use system::{LocalSystem, Mode};

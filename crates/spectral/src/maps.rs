@@ -195,6 +195,32 @@ mod tests {
         }
     }
 
+    /// The characteristic map is regular at orders up to 22, even and odd.
+    #[test]
+    fn characteristic_maps_of_high_orders_are_regular() {
+        for (valence, order) in [(3, 22), (7, 12), (3, 15)] {
+            let maps = Maps::new(&tension(valence, order, 0.01).unwrap()).unwrap();
+            let annulus = &maps.annulus;
+            // one sector, by symmetry
+            let mut smallest = f64::INFINITY;
+            let mut largest = 0.0_f64;
+            for patch in annulus.patches(0) {
+                let [x, y] = [0, 1].map(|i| annulus.patch(&maps.natural[i], patch));
+                for (u, v) in [(0.0, 0.0), (0.5, 0.5), (0.9, 0.1), (0.1, 0.9)] {
+                    let (x, y) = (x.jet(u, v), y.jet(u, v));
+                    let jacobian = x.first[0] * y.first[1] - x.first[1] * y.first[0];
+                    smallest = smallest.min(jacobian);
+                    largest = largest.max(jacobian);
+                }
+            }
+            // measured: 0.49 at least
+            assert!(
+                smallest > 0.01 * largest,
+                "N = {valence}, order {order}: {smallest} {largest}"
+            );
+        }
+    }
+
     #[test]
     fn derivatives_are_differences_over_the_plane() {
         let plane = Relaxation::new(6).unwrap().plane(0.55).unwrap();

@@ -7,7 +7,7 @@
 //! For levels with mirror symmetry the unknowns are the real ones of [`FourierNet`] and `S_k` is a real matrix.
 
 use crate::Error;
-use eigenring_scheme::{Complex, DenseNet, FourierNet, Level, Net, Numbering, Scalar, refine};
+use eigenring_scheme::{Complex, DenseNet, FourierNet, Level, Net, Numbering, Plan, Scalar, Site, refine};
 
 /// A dense matrix, stored by rows.
 #[derive(Clone, Debug, PartialEq)]
@@ -122,31 +122,7 @@ pub fn local_matrix<S: Scalar>(level: &Level<S>, rings: usize) -> Result<Matrix<
 /// # Errors
 /// [`Error::NotSymmetric`] if the rules differ from sector to sector; otherwise as [`local_matrix`].
 pub fn fourier_block<S: Scalar>(level: &Level<S>, rings: usize, index: usize) -> Result<Block<S>, Error> {
-    block(level, rings, index, level.mirror)
-}
-
-fn block<S: Scalar>(level: &Level<S>, rings: usize, index: usize, mirror: bool) -> Result<Block<S>, Error> {
-    if !level.symmetric {
-        return Err(Error::NotSymmetric);
-    }
-    let net = FourierNet::new(numbering(level, rings), index, mirror)?;
-    let sites = net.rows();
-    // one computed row for each orbit, from which the rows of all its unknowns follow
-    let orbits: Vec<_> = sites.iter().map(|&site| net.orbit(site)).collect();
-    let mut distinct = orbits.clone();
-    distinct.sort();
-    distinct.dedup();
-    let values = refine(level, &net, &distinct)?;
-    let rows = sites.iter().zip(&orbits).map(|(&site, orbit)| {
-        let position = distinct.binary_search(orbit).expect("every orbit was computed");
-        net.unknown_row(site, &values[position])
-    });
-    let matrix = Matrix::from_rows(rows.collect(), net.size());
-    Ok(if mirror {
-        Block::Real(matrix.map(|(re, _)| re))
-    } else {
-        Block::Complex(matrix)
-    })
+    Assembly::new(level, rings)?.block(index)
 }
 
 /// The blocks of index 0 to N/2; block N-k is the complex conjugate of block k.
@@ -154,9 +130,55 @@ fn block<S: Scalar>(level: &Level<S>, rings: usize, index: usize, mirror: bool) 
 /// # Errors
 /// As [`fourier_block`].
 pub fn fourier_blocks<S: Scalar>(level: &Level<S>, rings: usize) -> Result<Vec<Block<S>>, Error> {
+    let assembly = Assembly::new(level, rings)?;
     (0..=level.fan.sectors() / 2)
-        .map(|index| fourier_block(level, rings, index))
+        .map(|index| assembly.block(index))
         .collect()
+}
+
+/// What the Fourier blocks of a level share: the plan by which one point of each orbit is made, from which the rows of all its
+/// unknowns follow.
+struct Assembly<S> {
+    numbering: Numbering,
+    mirror: bool,
+    orbits: Vec<Site>,
+    plan: Plan<S>,
+}
+
+impl<S: Scalar> Assembly<S> {
+    fn new(level: &Level<S>, rings: usize) -> Result<Self, Error> {
+        if !level.symmetric {
+            return Err(Error::NotSymmetric);
+        }
+        let (numbering, mirror) = (numbering(level, rings), level.mirror);
+        // orbits are the same for all indices, and index 0 has all rows
+        let net = FourierNet::<S>::new(numbering, 0, mirror)?;
+        let mut orbits: Vec<Site> = net.rows().into_iter().map(|site| net.orbit(site)).collect();
+        orbits.sort_unstable();
+        orbits.dedup();
+        let plan = Plan::new(level, |site| net.orbit(site), &orbits)?;
+        Ok(Assembly {
+            numbering,
+            mirror,
+            orbits,
+            plan,
+        })
+    }
+
+    fn block(&self, index: usize) -> Result<Block<S>, Error> {
+        let net = FourierNet::new(self.numbering, index, self.mirror)?;
+        let values = self.plan.run(&net)?;
+        let rows = net.rows().into_iter().map(|site| {
+            let position = self.orbits.binary_search(&net.orbit(site));
+            net.unknown_row(site, &values[position.expect("every orbit was computed")])
+        });
+        let matrix = Matrix::from_rows(rows.collect(), net.size());
+        Ok(if self.mirror {
+            Block::Real(matrix.map(|(re, _)| re))
+        } else {
+            Block::Complex(matrix)
+        })
+    }
 }
 
 #[cfg(test)]
@@ -164,7 +186,7 @@ mod tests {
     use super::*;
     use eigenring_scheme::families::{catmull_clark, doo_sabin, tension};
     use eigenring_scheme::lambda::{Bounds, Domain, Relaxation};
-    use eigenring_scheme::{PointNet, Scheme, Site};
+    use eigenring_scheme::{PointNet, Scheme};
 
     fn times(a: Complex<f64>, b: Complex<f64>) -> Complex<f64> {
         (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
@@ -238,14 +260,18 @@ mod tests {
                 for index in [0, 1, 2, 3, valence / 2, valence - 1] {
                     let index = index % valence;
                     let expected = transformed(&matrix, numbering(level, rings), index);
-                    let complex = block(level, rings, index, false).unwrap().to_complex();
+                    let plain = Level {
+                        mirror: false,
+                        ..level.clone()
+                    };
+                    let complex = fourier_block(&plain, rings, index).unwrap().to_complex();
                     assert!(
                         distance(&complex, &expected) < 1e-14,
                         "{} {valence} {index}",
                         scheme.name
                     );
                     // and the real block is the same map in other unknowns
-                    let real = block(level, rings, index, true).unwrap().to_complex();
+                    let real = fourier_block(level, rings, index).unwrap().to_complex();
                     let basis = basis(numbering(level, rings), index);
                     let error = distance(&product(&complex, &basis), &product(&basis, &real));
                     assert!(error < 4e-15, "{} {valence} {index}: {error}", scheme.name);

@@ -8,7 +8,7 @@ use crate::schemes::SchemeArg;
 use crate::table::{Format, Table, pretty};
 use clap::{Args, ValueEnum};
 use eigenring_scheme::{Numbering, Site};
-use eigenring_spectral::{Matrix, local_matrix};
+use eigenring_spectral::{Matrix, Sufficient, local_matrix};
 use serde_json::json;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -29,7 +29,7 @@ pub struct Arguments {
     /// Valence
     #[arg(short = 'N', long, value_name = "N", value_parser = args::valence, allow_negative_numbers = true)]
     valence: usize,
-    /// Rings of control points; by default the smallest closed set
+    /// Rings of control points; by default as many as 'eigenring spectrum' takes, mostly the smallest closed set
     #[arg(long, value_name = "R", value_parser = args::count, allow_negative_numbers = true)]
     rings: Option<usize>,
     /// Level of refinement, 0 for the first; by default the limit level
@@ -62,7 +62,12 @@ impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         let valence = self.valence;
         let scheme = self.scheme.scheme(valence)?;
-        let rings = check_rings(self.rings, scheme.closed_rings()?)?;
+        let level = self.level.map_or(scheme.limit(), |level| scheme.level(level));
+        let closed = scheme.closed_rings()?;
+        let rings = match self.rings {
+            Some(rings) => check_rings(rings, closed)?,
+            None => Sufficient::new(level, closed)?.system.numbering().rings,
+        };
         let numbering = scheme.numbering(rings);
         let count = numbering.count();
         if count.saturating_mul(count) > MAX_ENTRIES {
@@ -72,7 +77,6 @@ impl Arguments {
                 accepted: format!("at most {MAX_ENTRIES} entries: fewer rings or a smaller valence"),
             });
         }
-        let level = self.level.map_or(scheme.limit(), |level| scheme.level(level));
         let matrix = local_matrix(level, rings)?;
         let bytes = match self.format {
             MatrixFormat::Mtx => matrix_market(&matrix, numbering, &scheme.name).into_bytes(),

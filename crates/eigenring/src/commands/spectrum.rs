@@ -5,10 +5,10 @@ use crate::error::Error;
 use crate::files;
 use crate::progress::note;
 use crate::schemes::SchemeArg;
-use crate::table::{Format, Record, Table, pretty};
+use crate::table::{Format, Record, Table, pretty, short};
 use clap::{ArgGroup, Args};
 use eigenring_scheme::Lattice;
-use eigenring_spectral::{LocalSystem, Matrix};
+use eigenring_spectral::{Eigenvalue, LocalSystem, Matrix, Spectrum, Sufficient, outer};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -16,7 +16,8 @@ use std::process::ExitCode;
 /// List the eigenvalues of a local subdivision matrix with their Fourier indices and multiplicities.
 ///
 /// Blocks k and N-k share their spectrum: they are listed once, with fourier = k <= N/2 and the multiplicity in the whole
-/// matrix. The number of rings is the smallest closed one unless --rings asks for more.
+/// matrix. Without --rings the smallest closed set of rings is taken, and one ring more where the eigenvalues outside of it
+/// are not strictly below the subsubdominant one: a note says so, and closed_rings and outer (their largest modulus) are listed.
 #[derive(Args, Debug)]
 #[command(group = ArgGroup::new("source").required(true))]
 #[command(
@@ -50,8 +51,7 @@ const CIRCULANT_TOLERANCE: f64 = 1e-9;
 pub const MAX_RINGS: usize = 64;
 
 /// Refuses rings out of range, given the smallest closed number.
-pub fn check_rings(rings: Option<usize>, closed: usize) -> Result<usize, Error> {
-    let rings = rings.unwrap_or(closed);
+pub fn check_rings(rings: usize, closed: usize) -> Result<usize, Error> {
     if (closed..=MAX_RINGS).contains(&rings) {
         return Ok(rings);
     }
@@ -62,40 +62,101 @@ pub fn check_rings(rings: Option<usize>, closed: usize) -> Result<usize, Error> 
     })
 }
 
+/// What is analysed.
+struct Subject {
+    name: String,
+    system: LocalSystem,
+    /// The smallest closed number of rings and the largest modulus of the eigenvalues outside; unknown for a matrix.
+    closed: Option<(usize, f64)>,
+}
+
+impl Subject {
+    fn scheme(spec: &SchemeArg, valence: usize, rings: Option<usize>, level: Option<usize>) -> Result<Self, Error> {
+        let scheme = spec.scheme(valence)?;
+        let level = level.map_or(scheme.limit(), |level| scheme.level(level));
+        let closed = scheme.closed_rings()?;
+        let (system, outer) = match rings {
+            Some(rings) => (
+                LocalSystem::new(level, check_rings(rings, closed)?)?,
+                outer(level, closed)?,
+            ),
+            None => {
+                let Sufficient { system, outer } = Sufficient::new(level, closed)?;
+                (system, outer)
+            }
+        };
+        Ok(Subject {
+            name: scheme.name.clone(),
+            system,
+            closed: Some((closed, outer)),
+        })
+    }
+
+    fn matrix(path: &Path, valence: usize) -> Result<Self, Error> {
+        let matrix = read_matrix(path)?;
+        let system =
+            LocalSystem::from_matrix(&matrix, valence, CIRCULANT_TOLERANCE).map_err(|error| Error::BadFile {
+                path: path.to_owned(),
+                message: error.to_string(),
+            })?;
+        Ok(Subject {
+            name: format!("matrix:{}", path.display()),
+            system,
+            closed: None,
+        })
+    }
+
+    /// What the list of eigenvalues does not say by itself.
+    fn notes(&self, spectrum: &Spectrum) -> Vec<String> {
+        let mut notes = Vec::new();
+        let rings = self.system.numbering().rings;
+        if let Some((closed, outer)) = self.closed
+            && rings > closed
+        {
+            let reason = format!(
+                "eigenvalues up to {} appear with the rings beyond {closed}",
+                short(outer)
+            );
+            notes.push(format!("{rings} rings, the smallest closed set has {closed}: {reason}"));
+        }
+        if let Some(lambda) = spectrum.subdominant() {
+            let defective = |e: &&Eigenvalue| e.geometric.is_some_and(|vectors| vectors < e.multiplicity);
+            // equal to the subdominant one, in any block
+            let same = spectrum.eigenvalues.iter().filter(|e| e.is_close(lambda));
+            for e in same.filter(defective) {
+                notes.push(format!(
+                    "the subdominant eigenvalue {} is defective (index {}): the usual criterion for C1 does not apply",
+                    short(e.modulus()),
+                    e.fourier.map_or("-".to_owned(), |index| index.to_string()),
+                ));
+            }
+        }
+        notes
+    }
+}
+
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         let valence = self.valence;
-        let (name, system) = match (&self.scheme, &self.matrix) {
-            (Some(spec), _) => {
-                let scheme = spec.scheme(valence)?;
-                let level = self.level.map_or(scheme.limit(), |level| scheme.level(level));
-                let rings = check_rings(self.rings, scheme.closed_rings()?)?;
-                (scheme.name.clone(), LocalSystem::new(level, rings)?)
-            }
-            (None, Some(path)) => {
-                let matrix = read_matrix(path)?;
-                let system = LocalSystem::from_matrix(&matrix, valence, CIRCULANT_TOLERANCE).map_err(|error| {
-                    Error::BadFile {
-                        path: path.clone(),
-                        message: error.to_string(),
-                    }
-                })?;
-                (format!("matrix:{}", path.display()), system)
-            }
+        let subject = match (&self.scheme, &self.matrix) {
+            (Some(spec), _) => Subject::scheme(spec, valence, self.rings, self.level)?,
+            (None, Some(path)) => Subject::matrix(path, valence)?,
             // the parser demands one of them
             (None, None) => return Ok(ExitCode::from(2)),
         };
+        let system = &subject.system;
         let spectrum = system.spectrum()?;
         let numbering = system.numbering();
+        let notes = subject.notes(&spectrum);
         if system.row_sum_defect() > 1e-12 {
             note(&format!(
                 "the rows of the local matrix do not sum to 1: the largest defect is {:e}",
                 system.row_sum_defect()
             ));
         }
-        let signed = |e: &eigenring_spectral::Eigenvalue| if e.value.1 == 0.0 { e.value.0 } else { e.modulus() };
+        let signed = |e: &Eigenvalue| if e.value.1 == 0.0 { e.value.0 } else { e.modulus() };
         let head = Record::default()
-            .with("scheme", name)
+            .with("scheme", subject.name.as_str())
             .with("valence", valence)
             .with(
                 "lattice",
@@ -106,6 +167,8 @@ impl Arguments {
                 },
             )
             .with("rings", numbering.rings)
+            .with("closed_rings", subject.closed.map(|(closed, _)| closed))
+            .with("outer", subject.closed.map(|(_, outer)| outer))
             .with("points", numbering.count())
             .with("subdominant", spectrum.subdominant().map(signed))
             .with("subsubdominant", spectrum.subsubdominant().map(signed))
@@ -120,21 +183,26 @@ impl Arguments {
                 e.geometric.into(),
             ]);
         }
-        let limits = Limits::new(&system, &spectrum);
+        let limits = Limits::new(system, &spectrum);
         let text = match self.output.format {
             Format::Json => {
                 let mut object = head.json();
                 object.insert("eigenvalues".to_owned(), eigenvalues.json());
                 object.insert("limit_stencils".to_owned(), limits.json());
+                object.insert("notes".to_owned(), json!(notes));
                 pretty(&Value::Object(object))
             }
             Format::Text => format!(
-                "{}\n{}\n{}",
+                "{}{}\n{}\n{}",
                 head.text(),
+                notes.iter().map(|text| format!("note: {text}\n")).collect::<String>(),
                 eigenvalues.render(Format::Text),
                 limits.text()
             ),
-            format => eigenvalues.render(format),
+            format => {
+                notes.iter().for_each(|text| note(text));
+                eigenvalues.render(format)
+            }
         };
         files::emit(None, text.as_bytes())?;
         Ok(ExitCode::SUCCESS)
@@ -151,7 +219,7 @@ struct Limits {
 }
 
 impl Limits {
-    fn new(system: &LocalSystem, spectrum: &eigenring_spectral::Spectrum) -> Self {
+    fn new(system: &LocalSystem, spectrum: &Spectrum) -> Self {
         let numbering = system.numbering();
         let sites = numbering.sites();
         let name = |site: &eigenring_scheme::Site| match (site.x, site.y) {

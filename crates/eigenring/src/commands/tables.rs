@@ -6,26 +6,34 @@ use crate::files;
 use crate::results::{self, FOLDER, Results};
 use crate::run::{Parameters, check, studies};
 use crate::table::{Format, Table};
+use crate::tension;
 use clap::{Args, ValueEnum};
 use eigenring_tune::study::{Knots, Study};
-use eigenring_tune::sweep::Range;
+use eigenring_tune::sweep::{Options, Range};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Regenerate every coefficient table of the lambda-scheme from nothing.
+/// Regenerate every coefficient table of the lambda-scheme from nothing, or the eigenvalue tables of the tension scheme.
 ///
 /// For each valence: tunes the stencils at 100 lambdas, finds the globally optimal lambda, fits the spline stencils, and
 /// writes OUT/lambda/: the paper's tables and the samples as CSV, and tables.json with everything at full precision. An
 /// interrupted run resumes when the same command is given again.
+///
+/// With --scheme tension: OUT/tension/ gets the leading eigenvalues of all local matrices of orders 3 to 22, five initial
+/// tensions and levels 1 to 10, the smallest gaps among them, the exceptions, the paper's Table 2 and characteristic meshes.
+/// Knots, tuning and --embed belong to the lambda-scheme alone.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  eigenring tables                         all of results/lambda, valences 3 to 20\n  eigenring tables --valences 5,6 --out /tmp/try\n  eigenring tables --starts full --format latex"
+    after_help = "Examples:\n  eigenring tables                         all of results/lambda, valences 3 to 20\n  eigenring tables --valences 5,6 --out /tmp/try\n  eigenring tables --starts full --format latex\n  eigenring tables --scheme tension        all of results/tension"
 )]
 pub struct Arguments {
+    /// Whose tables
+    #[arg(long, value_enum, default_value_t)]
+    scheme: Tabulated,
     /// Valences: numbers and ranges, such as 3..20 or 3,5,8..10
     #[arg(long, value_name = "LIST", default_value = "3..20", allow_hyphen_values = true)]
     valences: Valences,
-    /// Output folder; files go to its subfolder lambda
+    /// Output folder; files go to its subfolder lambda or tension
     #[arg(long, value_name = "FOLDER", default_value = "results")]
     out: PathBuf,
     /// Triple knots: detected from the samples, or those of the paper's Table 1
@@ -41,6 +49,16 @@ pub struct Arguments {
     tuning: TuningArgs,
     #[command(flatten)]
     output: Output,
+}
+
+/// The families with tables.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Tabulated {
+    /// Ma, Wang and Ma 2023.
+    #[default]
+    Lambda,
+    /// Fang, Ma and Wang.
+    Tension,
 }
 
 /// See [`Knots`].
@@ -69,6 +87,24 @@ impl Arguments {
             KnotsArg::Paper => Knots::Paper,
         };
         let parameters = Parameters::new(self.valences.0, knots, &options, &Range::default());
+        if self.scheme == Tabulated::Tension {
+            let usual = Parameters::new(
+                parameters.valences.clone(),
+                Knots::Detected,
+                &Options::default(),
+                &Range::default(),
+            );
+            if parameters != usual || self.embed.is_some() {
+                return Err(Error::Usage {
+                    message: "knots, tuning options and --embed belong to the tables of the lambda-scheme".to_owned(),
+                    accepted: "--valences, --out, --threads and --format".to_owned(),
+                });
+            }
+            let parameters = tension::Parameters::new(parameters.valences);
+            return on_threads(self.threads, || {
+                eigenvalue_tables(parameters, &self.out, self.output.format)
+            })?;
+        }
         let results = on_threads(self.threads, || regenerate(&parameters, &self.out, self.output.format))??;
         if let Some(path) = &self.embed {
             let table = results::table(&results.valences, &parameters)?;
@@ -109,6 +145,22 @@ pub fn regenerate(parameters: &Parameters, out: &Path, format: Format) -> Result
     // only now nothing is left to resume
     std::fs::remove_dir_all(&resume).map_err(|source| Error::Write { path: resume, source })?;
     Ok(results)
+}
+
+/// Computes and writes the tables of the tension scheme.
+fn eigenvalue_tables(parameters: tension::Parameters, out: &Path, format: Format) -> Result<ExitCode, Error> {
+    let folder = out.join(tension::FOLDER);
+    files::check_writable(&folder)?;
+    let results = tension::Results::new(parameters)?;
+    let mut all = results.files();
+    if format == Format::Latex {
+        all.extend(results.latex());
+    }
+    for (name, text) in all {
+        files::write(&folder.join(name), text.as_bytes())?;
+    }
+    files::emit(None, results.smallest_gaps().render(format).as_bytes())?;
+    Ok(ExitCode::SUCCESS)
 }
 
 /// What people look at first.
