@@ -122,14 +122,19 @@ fn cells(problem: &Problem) -> Result<Vec<Cell>, Error> {
     for strip in domain.strips() {
         let [from, to] = strip.f3;
         let part = if high > low { (to - from) / (high - low) } else { 1.0 };
-        let count = ((ROWS as f64 * part).ceil() as usize).max(1);
-        let count = if high > low { count } else { 1 };
+        let count = if high > low {
+            ((ROWS as f64 * part).ceil() as usize).max(1)
+        } else {
+            1
+        };
         let at = |k: usize| from + (to - from) * (INSIDE + (1.0 - 2.0 * INSIDE) * k as f64 / count as f64);
         for k in 0..count {
             let rows = [at(k), at(k + 1)];
-            let ends = rows.map(|f3| domain.f2_intervals(f3));
+            let between = 0.5 * (rows[0] + rows[1]);
+            // lower end, middle and upper end of the row
+            let ends = [rows[0], between, rows[1]].map(|f3| domain.f2_intervals(f3));
             for index in 0..strip.curves.len() {
-                let (Some(below), Some(above)) = (ends[0].get(index), ends[1].get(index)) else {
+                let [Some(below), Some(inside), Some(above)] = ends.each_ref().map(|ends| ends.get(index)) else {
                     continue;
                 };
                 for i in 0..CELLS {
@@ -140,7 +145,7 @@ fn cells(problem: &Problem) -> Result<Vec<Cell>, Error> {
                         [above.at(v), rows[1]],
                         [above.at(u), rows[1]],
                     ];
-                    let middle = [0, 1].map(|axis| corners.iter().map(|c| c[axis]).sum::<f64>() / 4.0);
+                    let middle = [inside.at(0.5 * (u + v)), between];
                     let total = problem.objective.value(middle[0], middle[1])?;
                     cells.push(Cell { corners, middle, total });
                 }

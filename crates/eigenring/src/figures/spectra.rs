@@ -1,6 +1,6 @@
 //! Eigenvalues by Fourier index: the spectrum of a scheme at a glance.
 //!
-//! Moduli of the eigenvalues of each Fourier block, on the smallest closed set of rings; blocks k and N-k have conjugate spectra, so k runs to N/2. A
+//! Moduli of the eigenvalues of each Fourier block, on the smallest closed set of rings that hides none of interest (see [`Sufficient`]); blocks k and N-k have conjugate spectra, so k runs to N/2. A
 //! multiple eigenvalue of a block is as many marks side by side. For bounded curvature lambda is from block 1, mu = lambda^2 (s = 1) from blocks 0
 //! and 2, and all others are smaller (Ma, Wang and Ma 2023, section 3).
 
@@ -10,7 +10,7 @@ use super::{Drawing, Entry, Inputs};
 use crate::error::Error;
 use crate::table::Table;
 use eigenring_figure::{Anchor, Axis, Chart, Colour, Dash, Figure, Marker, Panel, Side, Stroke, Style, Width};
-use eigenring_spectral::{Eigenvalue, LocalSystem, Spectrum};
+use eigenring_spectral::{Eigenvalue, Spectrum, Sufficient};
 
 pub const ENTRY: Entry = Entry {
     name: "spectrum",
@@ -57,7 +57,12 @@ const KINDS: [(Kind, Marker, usize, &str); 4] = [
 
 fn kind(eigenvalue: &Eigenvalue) -> Kind {
     match eigenvalue.value {
-        _ if eigenvalue.geometric < eigenvalue.multiplicity => Kind::Defective,
+        _ if eigenvalue
+            .geometric
+            .is_some_and(|vectors| vectors < eigenvalue.multiplicity) =>
+        {
+            Kind::Defective
+        }
         (_, im) if im != 0.0 => Kind::Complex,
         (re, _) if re < 0.0 => Kind::Negative,
         _ => Kind::Positive,
@@ -85,7 +90,7 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
     ]);
     for (column, &valence) in inputs.valences.iter().enumerate() {
         for (row, subject) in chosen(inputs, valence)?.iter().enumerate() {
-            let system = LocalSystem::new(subject.scheme.limit(), subject.scheme.closed_rings()?)?;
+            let Sufficient { system, .. } = Sufficient::new(subject.scheme.limit(), subject.scheme.closed_rings()?)?;
             if !system.symmetric() {
                 return Err(eigenring_spectral::Error::NotSymmetric.into());
             }
@@ -176,7 +181,7 @@ mod tests {
             value: (re, im),
             fourier: Some(1),
             multiplicity,
-            geometric,
+            geometric: Some(geometric),
         }
     }
 
@@ -213,7 +218,8 @@ mod tests {
             let total: usize = shown.map(|row| row[1].parse::<usize>().unwrap()).sum();
             let expected = schemes.iter().map(|argument| -> Result<usize, Error> {
                 let scheme = argument.scheme(valence)?;
-                Ok(scheme.numbering(scheme.closed_rings()?).count())
+                let sufficient = Sufficient::new(scheme.limit(), scheme.closed_rings()?)?;
+                Ok(sufficient.system.numbering().count())
             });
             assert_eq!(total, expected.sum::<Result<usize, Error>>()?);
         }
