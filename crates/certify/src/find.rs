@@ -3,7 +3,8 @@
 //! Nothing here is believed: what it finds is handed to the checks, which prove or refute with it, or fail to. It sees the
 //! same blocks and components as they do, rounded.
 
-use crate::linear::radius_below;
+use crate::Interval;
+use crate::linear::{eigenpair, quotient, radius_below};
 use crate::spectral::{Block, Evidence, Peel, Rest};
 use eigenring_spectral::{Block as Fourier, Matrix};
 
@@ -23,35 +24,29 @@ const PAIRS: usize = 4;
 /// Components of up to this many unknowns are taken apart completely where possible.
 const SMALL: usize = 8;
 
+/// Pairs whose enclosure is wider than this, relative to the eigenvalue, are not divided out: what they leave would be wider still. Empirical.
+const SHARP: f64 = 1e-10;
+
 fn peel(block: &Block, component: usize) -> Peel {
-    let part = block.part(component);
+    let mut current = block.part(component);
     let mut peel = Peel::default();
-    if part.rows() <= 2 {
-        return peel;
-    }
-    let mut current = part.map(|entry| entry.mid());
-    let enough = if part.rows() <= SMALL { SMALL } else { PAIRS };
+    let enough = if current.rows() <= SMALL { SMALL } else { PAIRS };
     while current.rows() > 2 && peel.pairs.len() < enough {
-        let Some((value, vector)) = leading(&current) else {
+        let Some((value, vector)) = leading(&current.map(Interval::mid)) else {
             break;
         };
-        let pivot = largest(&vector);
-        let scaled: Vec<f64> = vector.iter().map(|x| x / vector[pivot]).collect();
-        let kept: Vec<usize> = (0..current.rows()).filter(|&i| i != pivot).collect();
-        current = Matrix::from_fn(kept.len(), kept.len(), |i, j| {
-            current[(kept[i], kept[j])] - scaled[kept[i]] * current[(pivot, kept[j])]
-        });
+        // a rehearsal of what the checks will do
+        let found = eigenpair(&current, value, &vector);
+        let Some(found) = found.filter(|found| found.value.width() <= SHARP * value.abs()) else {
+            break;
+        };
+        current = quotient(&current, &found.vector, found.pivot);
         peel.pairs.push((value, vector));
     }
     if current.rows() > 2 {
         peel.rest = rest(&current);
     }
     peel
-}
-
-fn largest(vector: &[f64]) -> usize {
-    let by_size = |&a: &usize, &b: &usize| vector[a].abs().total_cmp(&vector[b].abs());
-    (0..vector.len()).max_by(by_size).unwrap_or(0)
 }
 
 /// The eigenvalue of the largest modulus with its vector, if it is real and apart from the others.
@@ -71,10 +66,10 @@ fn leading(matrix: &Matrix<f64>) -> Option<(f64, Vec<f64>)> {
 }
 
 /// The smallest radius for which a factor was found.
-fn rest(matrix: &Matrix<f64>) -> Option<Rest> {
+fn rest(exact: &Matrix<Interval>) -> Option<Rest> {
+    let matrix = &exact.map(Interval::mid);
     let values = Fourier::Real(matrix.clone()).eigenvalues().ok()?;
     let reach = values.first().map_or(0.0, |v| v.value.0.hypot(v.value.1));
-    let exact = matrix.map(crate::Interval::point);
     // nearer to the spectral radius the factor is the larger; the last ones are for nilpotent matrices
     let excess = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.3];
     let floors = [1e-3, 1e-2, 0.05, 0.1];
@@ -88,7 +83,7 @@ fn rest(matrix: &Matrix<f64>) -> Option<Rest> {
         let Some(factor) = stein_factor(matrix, radius) else {
             continue;
         };
-        if radius_below(&exact, &factor, radius) {
+        if radius_below(exact, &factor, radius) {
             let size = matrix.rows();
             let upper = (0..size).flat_map(|i| (i..size).map(move |j| (i, j)));
             return Some(Rest {

@@ -135,8 +135,8 @@ pub fn problem(scheme: &eigenring_scheme::Scheme<Interval>) -> Result<(Annulus, 
     Ok((annulus, blocks(&scheme.limit, rings)?))
 }
 
-/// The largest number of unknowns of a block. The scheme of order 32 needs 552; matrices are dense.
-pub const MAX_BLOCK: usize = 600;
+/// The largest number of unknowns of a block: dense matrices, of which there are N/2 + 1. Tension of order 22 needs 930.
+pub const MAX_BLOCK: usize = 1000;
 
 /// The blocks of an input at a valence.
 ///

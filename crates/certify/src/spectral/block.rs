@@ -16,8 +16,8 @@ pub struct Block {
     pub place: Place,
     /// The matrix to be analysed: for index 0 without the constant vector.
     pub matrix: Matrix<Interval>,
-    /// The whole block.
-    pub whole: Matrix<Interval>,
+    /// The row of the unknown that was divided out; empty if none was.
+    pub divided: Vec<Interval>,
     /// The components of the matrix, in an order in which each reads only earlier ones.
     pub components: Vec<Vec<usize>>,
     /// For each component the earlier ones that it reads, directly or not.
@@ -38,13 +38,13 @@ pub enum Place {
 }
 
 impl Block {
-    fn new(index: usize, place: Place, whole: Matrix<Interval>, matrix: Matrix<Interval>) -> Self {
+    fn new(index: usize, place: Place, divided: Vec<Interval>, matrix: Matrix<Interval>) -> Self {
         let (components, reads) = components(matrix.rows(), |i, j| !matrix[(i, j)].is_zero());
         Block {
             index,
             place,
             matrix,
-            whole,
+            divided,
             components,
             reads,
         }
@@ -86,7 +86,7 @@ pub fn blocks(level: &Level<Interval>, rings: usize) -> Result<Vec<Block>, Error
         let whole = local_matrix(level, rings)?;
         let ones = vec![Interval::one(); whole.rows()];
         let matrix = quotient(&whole, &ones, 0);
-        return Ok(vec![Block::new(0, Place::Points, whole, matrix)]);
+        return Ok(vec![Block::new(0, Place::Points, whole.row(0).to_vec(), matrix)]);
     }
     let n = level.fan.sectors();
     (0..=n / 2)
@@ -117,15 +117,16 @@ pub fn blocks(level: &Level<Interval>, rings: usize) -> Result<Vec<Block>, Error
                             _ => re,
                         }
                     });
-                    return Ok(Block::new(index, Place::Parts, whole.clone(), whole));
+                    return Ok(Block::new(index, Place::Parts, Vec::new(), whole));
                 }
             };
             if index > 0 {
-                return Ok(Block::new(index, Place::Real(None), whole.clone(), whole));
+                return Ok(Block::new(index, Place::Real(None), Vec::new(), whole));
             }
             let ones: Vec<Interval> = constant.iter().map(|&one| Interval::point(f64::from(one))).collect();
             let matrix = quotient(&whole, &ones, 0);
-            Ok(Block::new(0, Place::Real(Some(constant)), whole, matrix))
+            let place = Place::Real(Some(constant));
+            Ok(Block::new(0, place, whole.row(0).to_vec(), matrix))
         })
         .collect()
 }

@@ -46,7 +46,7 @@ pub fn eigenvector(block: &Block, entry: &Entry, value: Interval) -> Option<Vec<
         Place::Real(Some(constant)) => {
             // the constant vector was divided out: S (0, y) = value (0, y) + t c, so that y + t/(value - 1) c is the vector
             vector.insert(0, zero);
-            let excess: Interval = block.whole.row(0).iter().zip(&vector).map(|(&s, &v)| s * v).sum();
+            let excess: Interval = block.divided.iter().zip(&vector).map(|(&s, &v)| s * v).sum();
             let gap = value - Interval::point(1.0);
             if !gap.certainly_nonzero() {
                 return None;
