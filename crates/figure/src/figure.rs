@@ -185,6 +185,9 @@ impl Layout {
 const BORDER: f64 = 1.0;
 const BETWEEN: f64 = 3.0;
 const NEAR: f64 = 1.2;
+/// The part of a panel's width that its legend may take. Margins are not known when its rows are made; those of panels in a row differ
+/// by less than the rest.
+const LEGEND: f64 = 0.97;
 /// Smallest frame.
 const LEAST: f64 = 8.0;
 
@@ -298,7 +301,7 @@ impl Figure {
             margins.right = margins.right.max(bar_width(scale, about[1], page)?);
         }
         if let (Some(side), Some(chart)) = (panel.legend, panel.chart()) {
-            let [width, height] = Legend::of([chart], page)?.size(side, about[0]);
+            let [width, height] = Legend::of([chart], page)?.size(side, LEGEND * about[0]);
             match side {
                 Side::Top => margins.top += height + NEAR,
                 Side::Bottom => margins.bottom += height + NEAR,
@@ -354,7 +357,8 @@ impl Figure {
         // what all panels share takes its place first
         if let Some(side) = self.legend {
             let legend = Legend::of(self.panels.iter().filter_map(|(_, panel)| panel.chart()), &page)?;
-            let [w, h] = legend.size(side, inside.width());
+            let inside_width = inside.width();
+            let [w, h] = legend.size(side, inside_width);
             let mut place = inside;
             match side {
                 Side::Top => {
@@ -372,15 +376,16 @@ impl Figure {
                     inside.right = place.left - 2.0 * NEAR;
                 }
             }
-            legend.draw(&mut page, side, place)?;
+            legend.draw(&mut page, side, place, inside_width)?;
         }
         if let Some(scale) = &self.bar {
             inside.right -= bar_width(scale, inside.height(), &page)?;
         }
 
         let cells = self.frames(inside, &page)?;
-        for (index, ((_, panel), (frame, margins))) in self.panels.iter().zip(&cells).enumerate() {
-            self.draw_panel(index, panel, *frame, *margins, &mut page)?;
+        for (index, ((place, panel), (frame, margins))) in self.panels.iter().zip(&cells).enumerate() {
+            let most = LEGEND * self.about(*place, inside)[0];
+            self.draw_panel(index, panel, (*frame, *margins), most, &mut page)?;
         }
         if let Some(scale) = &self.bar {
             let all = self.panels.iter().flat_map(|(_, panel)| panel.scales());
@@ -395,22 +400,30 @@ impl Figure {
         Ok(page)
     }
 
+    /// The size of a panel if all had the same margins.
+    fn about(&self, place: Place, inside: Rect) -> [f64; 2] {
+        [
+            share(
+                &self.columns,
+                place.column..=place.last(),
+                inside.width() - gaps(self.columns.len()),
+            ),
+            share(
+                &self.rows,
+                place.row..=place.row,
+                inside.height() - gaps(self.rows.len()),
+            ),
+        ]
+    }
+
     /// The frames of the panels with their margins, aligned along rows and columns.
     fn frames(&self, inside: Rect, page: &Page) -> Result<Vec<(Rect, Margins)>, Error> {
         let (rows, columns) = (self.rows.len(), self.columns.len());
-        let gaps = |count: usize| BETWEEN * (count - 1) as f64;
         let (mut left, mut right) = (vec![0.0f64; columns], vec![0.0f64; columns]);
         let (mut top, mut bottom) = (vec![0.0f64; rows], vec![0.0f64; rows]);
         let grow = |margin: &mut f64, needed: f64| *margin = margin.max(needed);
         for (place, panel) in &self.panels {
-            let about = [
-                share(
-                    &self.columns,
-                    place.column..=place.last(),
-                    inside.width() - gaps(columns),
-                ),
-                share(&self.rows, place.row..=place.row, inside.height() - gaps(rows)),
-            ];
+            let about = self.about(*place, inside);
             let margins = self.margins(panel, about, page)?;
             grow(&mut left[place.column], margins.left);
             grow(&mut right[place.last()], margins.right);
@@ -453,8 +466,8 @@ impl Figure {
         &self,
         index: usize,
         panel: &Panel,
-        frame: Rect,
-        margins: Margins,
+        (frame, margins): (Rect, Margins),
+        legend_width: f64,
         page: &mut Page,
     ) -> Result<(), Error> {
         let plot = match &panel.content {
@@ -483,7 +496,7 @@ impl Figure {
         if let (Some(side), Some(chart)) = (panel.legend, panel.chart()) {
             let legend = Legend::of([chart], page)?;
             let (left, right) = (frame.left - margins.left, frame.right + margins.right);
-            let [w, h] = legend.size(side, frame.width() + margins.left);
+            let [w, h] = legend.size(side, legend_width);
             let place = match side {
                 Side::Top => Rect::new(left, top, right, top + h),
                 Side::Bottom => {
@@ -494,10 +507,15 @@ impl Figure {
                 }
                 Side::Right => Rect::new(right - w, frame.top, right, frame.top + h),
             };
-            legend.draw(page, side, place)?;
+            legend.draw(page, side, place, legend_width)?;
         }
         Ok(())
     }
+}
+
+/// The sum of the gaps between rows or columns.
+fn gaps(count: usize) -> f64 {
+    BETWEEN * (count - 1) as f64
 }
 
 /// The part of a length that some of the rows or columns get.

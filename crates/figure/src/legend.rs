@@ -101,10 +101,10 @@ impl Legend {
         [width, ROW * rows.len() as f64]
     }
 
-    /// Draws it into a box of that size (or larger: rows are centred).
-    pub fn draw(&self, page: &mut Page, side: Side, to: Rect) -> Result<(), Error> {
+    /// Draws it into a box, with the rows of [`Legend::size`] for the same greatest width; they are centred.
+    pub fn draw(&self, page: &mut Page, side: Side, to: Rect, most: f64) -> Result<(), Error> {
         let mut y = to.top + ROW / 2.0;
-        for row in self.rows(side, to.width() + 1e-9) {
+        for row in self.rows(side, most) {
             let mut x = match side {
                 Side::Right => to.left,
                 _ => (to.left + to.right - self.width(&row)) / 2.0,

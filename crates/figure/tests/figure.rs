@@ -179,3 +179,27 @@ fn frames_are_aligned_and_wide_panels_span_columns() {
     let short = figure.column_widths(&[1.0, 1.0]);
     assert!(matches!(short.svg(), Err(Error::Grid { .. })));
 }
+
+#[test]
+fn a_legend_of_many_rows_fits_whatever_its_entries() {
+    for count in 1..14 {
+        let axis = |label: &str| Axis::new(label, (0.0, 1.0));
+        let mut chart = Chart::new(axis("abscissa"), axis("ordinate"));
+        for index in 0..count {
+            let series = [[0.1, 0.2], [0.9, 0.4]];
+            chart = chart
+                .series(series, Style::line(index))
+                .label("entry ".repeat(1 + index % 3) + &index.to_string());
+        }
+        for side in [Side::Top, Side::Bottom] {
+            let panel = || Panel::new(chart.clone()).title("title").legend(side);
+            let single = Figure::new(Width::One, 90.0, "").panel(0, 0, panel());
+            let pair = Figure::new(Width::Two, 90.0, "")
+                .panel(0, 0, panel())
+                .panel(0, 1, panel());
+            for figure in [single, pair] {
+                assert_eq!(figure.layout().unwrap().faults(), [""; 0], "{count} {side:?}");
+            }
+        }
+    }
+}
