@@ -99,3 +99,63 @@ pub fn featured(inputs: &Inputs<'_>, valence: usize) -> Result<Vec<Subject>, Err
     };
     shown.into_iter().map(subject).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::{Studies, characteristic, natural, second_order, spectra};
+    use eigenring_figure::Width;
+
+    #[test]
+    fn panels_of_any_schemes_fit_both_widths() {
+        let studies = Studies::load(None, &[]).unwrap();
+        let specs = [
+            "catmull-clark",
+            "doo-sabin",
+            "tension:order=8",
+            "lambda:optimal",
+            "lambda:lambda=0.35",
+        ];
+        let schemes = specs.map(|spec| spec.parse::<SchemeArg>().unwrap());
+        // Doo-Sabin has no second-order maps
+        let smooth = [schemes[2].clone(), schemes[4].clone()];
+        for width in [Width::One, Width::Two] {
+            for (entry, schemes, valences) in [
+                (natural::ENTRY, &schemes[..], &[3, 5, 8, 20][..]),
+                (natural::ENTRY, &[], &[3, 8, 20]),
+                (characteristic::ENTRY, &schemes, &[3, 20]),
+                (second_order::ENTRY, &smooth, &[4]),
+                (spectra::ENTRY, &schemes, &[3, 4, 8, 20]),
+            ] {
+                let inputs = Inputs {
+                    valences,
+                    lambdas: &[],
+                    schemes,
+                    colours: entry.colours,
+                    range: (0.15, 0.9),
+                    width,
+                    studies: &studies,
+                };
+                for drawing in (entry.build)(&inputs).unwrap() {
+                    let faults = drawing.figure.layout().unwrap().faults();
+                    assert!(faults.is_empty(), "{} {width:?}: {faults:#?}", drawing.stem);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn titles() {
+        for (spec, title) in [
+            ("doo-sabin", "$N$ = 5, Doo-Sabin"),
+            ("tension:order=8", "$N$ = 5, tension, order 8"),
+            ("tension:order=6,u0=2", "$N$ = 5, tension, order 6, $u_0$ = 2"),
+            ("lambda:lambda=0.35", "$N$ = 5, $λ$ = 0.35"),
+            ("lambda:lambda=0.55,f2=0.25,f3=0.2", "$N$ = 5, $λ$ = 0.55"),
+            ("lambda:optimal", "$N$ = 5, $λ_C^*$ = 0.5597"),
+        ] {
+            let subject = Subject::new(&spec.parse().unwrap(), 5).unwrap();
+            assert_eq!(subject.full_title(), title);
+        }
+    }
+}
