@@ -57,7 +57,7 @@ const KINDS: [(Kind, Marker, usize, &str); 4] = [
 
 fn kind(eigenvalue: &Eigenvalue) -> Kind {
     match eigenvalue.value {
-        _ if eigenvalue.geometric < eigenvalue.multiplicity => Kind::Defective,
+        _ if eigenvalue.is_defective() => Kind::Defective,
         (_, im) if im != 0.0 => Kind::Complex,
         (re, _) if re < 0.0 => Kind::Negative,
         _ => Kind::Positive,
@@ -176,7 +176,7 @@ mod tests {
             value: (re, im),
             fourier: Some(1),
             multiplicity,
-            geometric,
+            geometric: Some(geometric),
         }
     }
 
