@@ -25,6 +25,11 @@ impl Eigenvalue {
         self.value.0.hypot(self.value.1)
     }
 
+    /// Whether there are fewer eigenvectors than the multiplicity; false where these were not counted.
+    pub fn is_defective(&self) -> bool {
+        self.geometric.is_some_and(|vectors| vectors < self.multiplicity)
+    }
+
     /// Whether two eigenvalues of different blocks are the same, up to rounding.
     pub fn is_close(&self, other: &Eigenvalue) -> bool {
         let distance = (self.value.0 - other.value.0).hypot(self.value.1 - other.value.1);

@@ -120,10 +120,9 @@ impl Subject {
             notes.push(format!("{rings} rings, the smallest closed set has {closed}: {reason}"));
         }
         if let Some(lambda) = spectrum.subdominant() {
-            let defective = |e: &&Eigenvalue| e.geometric.is_some_and(|vectors| vectors < e.multiplicity);
             // equal to the subdominant one, in any block
             let same = spectrum.eigenvalues.iter().filter(|e| e.is_close(lambda));
-            for e in same.filter(defective) {
+            for e in same.filter(|e| e.is_defective()) {
                 notes.push(format!(
                     "the subdominant eigenvalue {} is defective (index {}): the usual criterion for C1 does not apply",
                     short(e.modulus()),

@@ -24,6 +24,9 @@ impl Subject {
         let title = match argument {
             SchemeArg::Spec(Spec::CatmullClark) => "Catmull-Clark".to_owned(),
             SchemeArg::Spec(Spec::DooSabin) => "Doo-Sabin".to_owned(),
+            SchemeArg::Spec(Spec::DooSabinUniform) => "Doo-Sabin, uniform".to_owned(),
+            SchemeArg::Spec(Spec::Stam { order }) => format!("Stam, order {order}"),
+            SchemeArg::Spec(Spec::Morin { u0 }) => format!("Morin et al., $u_0$ = {u0}"),
             SchemeArg::Spec(Spec::Tension { order, u0 }) if *u0 == 1.0 => format!("tension, order {order}"),
             SchemeArg::Spec(Spec::Tension { order, u0 }) => format!("tension, order {order}, $u_0$ = {u0}"),
             SchemeArg::Spec(Spec::LambdaOptimal | Spec::Lambda { .. }) => {
