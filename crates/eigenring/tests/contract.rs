@@ -329,6 +329,7 @@ fn help_has_examples_and_no_escape_sequences() {
         "spectrum",
         "matrix",
         "compare",
+        "curve",
         "reproduce",
     ] {
         assert!(top.contains(&format!("  {command} ")), "{command}");

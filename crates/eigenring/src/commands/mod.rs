@@ -1,6 +1,7 @@
 //! The subcommands, one module each.
 
 mod compare;
+mod curve;
 mod matrix;
 mod objective;
 mod plot;
@@ -20,7 +21,7 @@ use std::process::ExitCode;
 #[command(
     name = "eigenring",
     version,
-    after_help = "Examples:\n  eigenring tables                                   regenerate results/lambda from nothing\n  eigenring stencil -N 6 --lambda 0.55               the stencils of one valence and lambda\n  eigenring spectrum --scheme catmull-clark -N 5     eigenvalues and limit stencils\n  eigenring compare --schemes catmull-clark,lambda:optimal --valences 3..12\n  eigenring verify --scheme catmull-clark -N 5       prove that it is C1\n  eigenring plot --all                               every figure, with its data\n\nSchemes: catmull-clark | doo-sabin[:uniform] | lambda:optimal | lambda:lambda=L[,f2=X,f3=Y][,s=S] |\n         tension:order=K[,u0=U] | stam:order=K | morin:u0=U | file:SCHEME.toml\nExit codes: 0 done, 1 refuted or different, 2 bad input."
+    after_help = "Examples:\n  eigenring tables                                   regenerate results/lambda from nothing\n  eigenring stencil -N 6 --lambda 0.55               the stencils of one valence and lambda\n  eigenring spectrum --scheme catmull-clark -N 5     eigenvalues and limit stencils\n  eigenring compare --schemes catmull-clark,lambda:optimal --valences 3..12\n  eigenring verify --scheme catmull-clark -N 5       prove that it is C1\n  eigenring curve --example circle                   control points that give an exact circle\n  eigenring plot --all                               every figure, with its data\n\nSchemes: catmull-clark | doo-sabin[:uniform] | lambda:optimal | lambda:lambda=L[,f2=X,f3=Y][,s=S] |\n         tension:order=K[,u0=U] | stam:order=K | morin:u0=U | file:SCHEME.toml\nExit codes: 0 done, 1 refuted or different, 2 bad input."
 )]
 pub struct Cli {
     #[command(subcommand)]
@@ -37,6 +38,7 @@ enum Command {
     Spectrum(spectrum::Arguments),
     Matrix(matrix::Arguments),
     Compare(compare::Arguments),
+    Curve(curve::Arguments),
     Plot(plot::Arguments),
     Reproduce(reproduce::Arguments),
 }
@@ -53,6 +55,7 @@ impl Cli {
             Command::Spectrum(arguments) => arguments.run(),
             Command::Matrix(arguments) => arguments.run(),
             Command::Compare(arguments) => arguments.run(),
+            Command::Curve(arguments) => arguments.run(),
             Command::Plot(arguments) => arguments.run(),
             Command::Reproduce(arguments) => arguments.run(),
         }

@@ -1,0 +1,97 @@
+//! Control points from CSV: a point a line, its coordinates in columns, with or without names above them.
+//!
+//! Lines that are blank or start with `#` are skipped. A first line without any number is a header.
+
+use crate::error::Error;
+use crate::files;
+use std::path::Path;
+
+/// The points of a file: at least one coordinate each, all as many, all finite. How many points are needed is for the curve to say.
+pub fn read(path: &Path) -> Result<Vec<Vec<f64>>, Error> {
+    parse(&files::read(path)?).map_err(|message| Error::BadFile {
+        path: path.to_owned(),
+        message,
+    })
+}
+
+fn parse(text: &str) -> Result<Vec<Vec<f64>>, String> {
+    // spreadsheets start their files with a byte order mark
+    let text = text.trim_start_matches('\u{feff}');
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .trim(csv::Trim::All)
+        .comment(Some(b'#'))
+        .from_reader(text.as_bytes());
+    let mut columns = None;
+    let mut points = Vec::new();
+    for (index, record) in reader.records().enumerate() {
+        let record = record.map_err(|error| error.to_string())?;
+        let line = record.position().map_or(index as u64 + 1, csv::Position::line);
+        let (first, expected) = *columns.get_or_insert((line, record.len()));
+        if record.len() != expected {
+            return Err(format!(
+                "line {line} has {} columns, line {first} has {expected}: accepted are lines of equal length",
+                record.len()
+            ));
+        }
+        if index == 0 && record.iter().all(|entry| entry.parse::<f64>().is_err()) {
+            continue;
+        }
+        let number = |(column, entry): (usize, &str)| match entry.parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(number),
+            _ => Err(format!(
+                "line {line}, column {}: '{entry}': accepted are finite numbers",
+                column + 1
+            )),
+        };
+        points.push(
+            record
+                .iter()
+                .enumerate()
+                .map(number)
+                .collect::<Result<Vec<f64>, String>>()?,
+        );
+    }
+    Ok(points)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headers_comments_and_blank_lines() {
+        let expected = vec![vec![1.0, -2.5], vec![3e2, 0.0]];
+        for text in [
+            "1,-2.5\n3e2,0\n",
+            "x,y\n1,-2.5\n3e2,0",
+            "\u{feff}x, y\r\n\r\n 1 , -2.5\r\n# a remark, of three, parts\r\n3e2,0\r\n",
+        ] {
+            assert_eq!(parse(text).as_ref(), Ok(&expected), "{text:?}");
+        }
+        assert_eq!(parse("height\n1\n2\n").unwrap().len(), 2);
+        assert_eq!(parse(""), Ok(vec![]));
+    }
+
+    #[test]
+    fn bad_lines_are_named() {
+        for (text, part) in [
+            ("x,y\n1,2\n3,four\n", "line 3, column 2: 'four'"),
+            ("1,2\n\n3,nan\n", "line 3, column 2: 'nan'"),
+            ("1,2\n-inf,1\n", "line 2, column 1"),
+            ("1,1e999\n", "line 1, column 2"),
+            ("1,\n", "line 1, column 2: ''"),
+            ("1,b\n", "line 1, column 2: 'b'"),
+            ("1,2\n3\n", "line 2 has 1 columns, line 1 has 2"),
+            ("x,y\n1,2,3\n", "line 2 has 3 columns, line 1 has 2"),
+            ("x,y\nu,v\n", "line 2, column 1: 'u'"),
+        ] {
+            let message = parse(text).unwrap_err();
+            assert!(
+                message.contains(part) && message.contains("accepted"),
+                "{text:?}: {message}"
+            );
+        }
+    }
+}
