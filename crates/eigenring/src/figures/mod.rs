@@ -5,6 +5,7 @@
 //! A figure is a registered [`Entry`]: a name, what it shows, what it takes, and a function from [`Inputs`] to [`Drawing`]s. Drawings are pure functions of
 //! their inputs; the command writes them. Each drawing comes with the tables of the numbers it shows, which are what tests compare.
 
+mod certificates;
 mod characteristic;
 mod curvature_sign;
 mod feasible_domain;
@@ -21,6 +22,7 @@ mod stencils;
 mod studies;
 mod subject;
 mod sweep;
+mod tension_curves;
 mod weighting;
 
 pub use studies::Studies;
@@ -107,6 +109,8 @@ pub const FIGURES: &[Entry] = &[
     characteristic::ENTRY,
     second_order::ENTRY,
     spectra::ENTRY,
+    tension_curves::ENTRY,
+    certificates::ENTRY,
 ];
 
 impl Entry {

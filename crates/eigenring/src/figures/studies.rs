@@ -10,11 +10,16 @@ use eigenring_tune::sweep::{Options, Range};
 use std::collections::BTreeMap;
 use std::path::Path;
 
+/// Where `eigenring verify --all` leaves its summary of ranges, below the folder of results.
+const RANGES: &str = "certificates/ranges.csv";
+
 /// Studies by valence, all of one set of parameters.
 #[derive(Debug)]
 pub struct Studies {
     parameters: Parameters,
     by_valence: BTreeMap<usize, Study>,
+    /// The stored `certificates/ranges.csv`, if there is one.
+    pub ranges: Option<String>,
     /// Of what was computed, for people.
     pub remark: Option<String>,
 }
@@ -51,9 +56,11 @@ impl Studies {
             let computed = studies(&parameters, None)?;
             by_valence.extend(computed.into_iter().map(|study| (study.valence, study)));
         }
+        let ranges = folder.map(|folder| folder.join(RANGES)).filter(|path| path.exists());
         Ok(Studies {
             parameters,
             by_valence,
+            ranges: ranges.map(|path| files::read(&path)).transpose()?,
             remark,
         })
     }
