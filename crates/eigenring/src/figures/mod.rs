@@ -22,7 +22,6 @@ mod stencils;
 mod studies;
 mod subject;
 mod sweep;
-mod tension_curves;
 mod weighting;
 
 pub use studies::Studies;
@@ -109,7 +108,6 @@ pub const FIGURES: &[Entry] = &[
     characteristic::ENTRY,
     second_order::ENTRY,
     spectra::ENTRY,
-    tension_curves::ENTRY,
     certificates::ENTRY,
 ];
 
