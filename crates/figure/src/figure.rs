@@ -185,9 +185,6 @@ impl Layout {
 const BORDER: f64 = 1.0;
 const BETWEEN: f64 = 3.0;
 const NEAR: f64 = 1.2;
-/// The part of a panel's width that its legend may take. Margins are not known when its rows are made; those of panels in a row differ
-/// by less than the rest.
-const LEGEND: f64 = 0.97;
 /// Smallest frame.
 const LEAST: f64 = 8.0;
 
@@ -301,7 +298,7 @@ impl Figure {
             margins.right = margins.right.max(bar_width(scale, about[1], page)?);
         }
         if let (Some(side), Some(chart)) = (panel.legend, panel.chart()) {
-            let [width, height] = Legend::of([chart], page)?.size(side, LEGEND * about[0]);
+            let [width, height] = Legend::of([chart], page)?.size(side, about[0]);
             match side {
                 Side::Top => margins.top += height + NEAR,
                 Side::Bottom => margins.bottom += height + NEAR,
@@ -384,7 +381,7 @@ impl Figure {
 
         let cells = self.frames(inside, &page)?;
         for (index, ((place, panel), (frame, margins))) in self.panels.iter().zip(&cells).enumerate() {
-            let most = LEGEND * self.about(*place, inside)[0];
+            let most = self.about(*place, inside)[0];
             self.draw_panel(index, panel, (*frame, *margins), most, &mut page)?;
         }
         if let Some(scale) = &self.bar {
