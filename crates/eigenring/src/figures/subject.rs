@@ -39,9 +39,6 @@ impl Subject {
                 };
                 format!("{symbol} = {}", four(lambda))
             }
-            SchemeArg::Spec(Spec::Stam { order }) => format!("Stam, order {order}"),
-            SchemeArg::Spec(Spec::Morin { u0 }) => format!("Morin, $u_0$ = {u0}"),
-            SchemeArg::Spec(other) => other.to_string(),
             SchemeArg::File(path) => path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
         };
         let scheme = argument.scheme(valence)?;
