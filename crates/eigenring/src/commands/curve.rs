@@ -94,6 +94,9 @@ pub struct Arguments {
 /// The most points that a table of one level or of the limit holds: beyond, it would be hundreds of megabytes of text.
 const MOST_POINTS: usize = 1 << 20;
 
+/// The fewest pieces of a drawn limit: then they are too short for corners to be seen.
+const SMOOTH: usize = 512;
+
 fn order(text: &str) -> Result<usize, String> {
     let order = text.parse().ok().filter(|order| (3..=MAX_ORDER).contains(order));
     order.ok_or_else(|| format!("accepted are 3 to {MAX_ORDER}"))
@@ -224,7 +227,7 @@ impl Arguments {
         }
         let mut summary = self.summary(curve, count);
         let mut files = Vec::new();
-        let limit = match self.limit.is_some() || self.plot.is_some() || exact.is_some() {
+        let limit = match self.limit.is_some() || exact.is_some() {
             true => curve.sample(self.samples)?,
             false => Vec::new(),
         };
@@ -236,7 +239,8 @@ impl Arguments {
             files.push((path.clone(), levels::limit(&limit).render(Format::Csv).into_bytes()));
         }
         if let Some(path) = &self.plot {
-            let figure = picture::figure(&levels, &limit, self.width(), &title(curve))?;
+            let smooth = curve.sample(self.samples.max(SMOOTH.div_ceil(curve.axis().intervals())))?;
+            let figure = picture::figure(&levels, &smooth, self.width(), &title(curve))?;
             files.push((path.clone(), self.picture(path, &figure)?));
         }
         let shown = if self.all_levels { 0 } else { count as usize };
@@ -317,7 +321,7 @@ fn is(path: &Path, extension: &str) -> bool {
 
 fn title(curve: &Curve) -> String {
     let u0 = (curve.axis().tension().value() * 1e4).round() / 1e4;
-    format!("order {}, $u_0$ = {u0}", curve.axis().order())
+    format!("order {}, $u_0$ = {u0}", curve.axis().order()).replace('-', "−")
 }
 
 fn distance(a: &[f64], b: &[f64]) -> f64 {

@@ -22,6 +22,7 @@ mod stencils;
 mod studies;
 mod subject;
 mod sweep;
+mod tension_curves;
 mod weighting;
 
 pub use studies::Studies;
@@ -109,6 +110,7 @@ pub const FIGURES: &[Entry] = &[
     second_order::ENTRY,
     spectra::ENTRY,
     certificates::ENTRY,
+    tension_curves::ENTRY,
 ];
 
 impl Entry {

@@ -119,7 +119,7 @@ pub fn figure(grid: &Grid, samples: usize, width: Width, title: &str) -> Result<
         })
     });
     let mut surface = Surface::new(View::default()).quads(quads.collect::<Vec<_>>(), &scale);
-    let stroke = Stroke::solid(Colour::INK, 0.15);
+    let stroke = Stroke::solid(Colour::GREY, 0.12);
     for corners in faces(grid) {
         let corners = corners.map(|i| control[i]);
         // each edge of a closed mesh once; the last row of an open one has no face beyond it
