@@ -237,3 +237,135 @@ fn lambda_subject(valence: usize, lambda: f64, s: f64, f2: f64, f3: Option<f64>)
         floating: false,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_rational::BigRational;
+
+    type Q = BigRational;
+
+    fn q(p: i64, r: i64) -> Q {
+        Q::new(p.into(), r.into())
+    }
+
+    /// A g3, h and the denominator of both, of the closed forms with c1 and c2 as free numbers.
+    fn closed(c: &[Q; 2], s: &Q, lambda: &Q, f3: &Q) -> [Q; 3] {
+        let one = q(1, 1);
+        let (sg, mu) = (s * lambda, s * lambda * lambda);
+        let a = (&one + &c[0]) * &mu - (&one + &c[1]) * lambda;
+        let b = &c[0] - &c[1];
+        let denominator = &b * &mu - (&one + &c[0] - (&one + &c[1]) * &sg) * f3;
+        [
+            &mu * (a - b * f3),
+            (&one - &sg) * (&mu - f3) * (lambda - f3),
+            denominator,
+        ]
+    }
+
+    /// Degrees of `p_1(lambda)` and `p_2(mu)` times the denominator are at most 7 in lambda, 4 in s and 3 in each of f3, c1, c2.
+    /// A polynomial that vanishes on a grid with more points than its degree in every direction is zero.
+    #[test]
+    fn the_demanded_eigenvalues_hold_by_identity() {
+        let points = |count: i64, shift: i64| (0..count).map(move |i| q(i + shift, 3));
+        let zero = q(0, 1);
+        let mut evaluated = 0;
+        for lambda in points(9, 1) {
+            for s in points(6, 2) {
+                for f3 in points(5, -1) {
+                    for c1 in points(5, -2) {
+                        for c2 in points(5, -3) {
+                            let c = [c1.clone(), c2];
+                            let [g3, h, d] = closed(&c, &s, &lambda, &f3);
+                            let mu = &s * &lambda * &lambda;
+                            for (value, cosine) in [(&lambda, &c[0]), (&mu, &c[1])] {
+                                let p = (value - &f3) * (value * &d - &g3) - &h * (q(1, 1) + cosine) * value;
+                                assert_eq!(p, zero);
+                            }
+                            evaluated += 1;
+                        }
+                    }
+                }
+            }
+        }
+        assert_eq!(evaluated, 9 * 6 * 125);
+    }
+
+    /// The closed forms above are those of [`Plane`], and the stencils have the demanded eigenvalues in block 0 too.
+    #[test]
+    fn planes_evaluate_these_closed_forms() {
+        for (valence, cosines) in [(3, [q(-1, 2), q(-1, 2)]), (6, [q(1, 2), q(-1, 2)])] {
+            for (lambda, s, f2, f3) in [
+                (0.5, 1.0, 0.25, 0.3125),
+                (0.625, 1.25, 0.28125, 0.5),
+                (0.40625, 1.0, 0.3, 0.21875),
+            ] {
+                let exact = |x: f64| Q::from_float(x).unwrap();
+                let [g3, h, d] = closed(&cosines, &exact(s), &exact(lambda), &exact(f3));
+                let plane = Plane {
+                    valence,
+                    lambda: Interval::point(lambda),
+                    s: Interval::point(s),
+                    phi: Interval::point(6.0),
+                };
+                let found = plane.g3_and_h(Interval::point(f3));
+                for (found, expected) in [(found.0, g3 / &d), (found.1, h / &d)] {
+                    assert!(exact(found.lo()) <= expected && expected <= exact(found.hi()) && found.width() < 1e-12);
+                }
+                // block 0 on (E - V, F - V): x^2 - t x + det at mu
+                let w = plane.stencil(Interval::point(f2), Interval::point(f3)).weights;
+                let two = Interval::point(2.0);
+                let (a, b) = (w.d2 + two * w.e1 - w.alpha, two * w.e2 - w.beta);
+                let (c, e) = (two * w.f2 - w.alpha, w.f3 - w.beta);
+                let mu = plane.mu();
+                let value = (a - mu) * (e - mu) - b * c;
+                assert!(value.contains_zero() && value.width() < 1e-11, "{value:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn specs_become_exact_inputs() {
+        let input = |spec: &str, valence| Input::from_spec(&spec.parse().unwrap(), valence).unwrap();
+        assert_eq!(
+            input("catmull-clark", 5),
+            Input::Family {
+                spec: "catmull-clark".into()
+            }
+        );
+        assert!(matches!(input("lambda:optimal", 4), Input::Lambda { f3: None, s, .. } if s == 1.0));
+        let regular = input("lambda:lambda=0.5,f2=0.25,f3=0.25", 4);
+        assert_eq!(
+            regular,
+            Input::Lambda {
+                lambda: 0.5,
+                s: 1.0,
+                f2: 0.25,
+                f3: Some(0.25)
+            }
+        );
+        assert!(
+            regular
+                .subject(4)
+                .unwrap()
+                .identities
+                .is_some_and(|identities| identities.square)
+        );
+        // beside mu the closed forms do not hold at valence 4
+        let beside = Input::Lambda {
+            lambda: 0.5,
+            s: 1.0,
+            f2: 0.25,
+            f3: Some(0.2500001),
+        };
+        assert!(beside.subject(4).unwrap().identities.is_none());
+        for input in [
+            regular,
+            input("doo-sabin", 4),
+            Input::floating(eigenring_scheme::families::catmull_clark_weights(4)),
+        ] {
+            let text = serde_json::to_string(&input).unwrap();
+            assert_eq!(serde_json::from_str::<Input>(&text).unwrap(), input);
+        }
+    }
+}

@@ -123,3 +123,73 @@ pub fn describe(point: &Point, witness: Witness) -> Witness {
         .with("g3", number(point.stencil.g3))
         .with("z0", number(point.z0()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Input;
+    use crate::exact::{Field, Weight, block_polynomial};
+    use crate::find;
+    use crate::range::{Curve, Problem, point};
+    use crate::spectral::{Spectrum, problem_of};
+    use eigenring_scheme::families::catmull_clark_weights;
+    use num_bigint::BigInt;
+    use num_rational::BigRational;
+
+    /// The second ring adds 1/8, 1/16, 1/32 and 1/64 to every block. Its part of the block has entries of degree at most 2 in w, so that the
+    /// coefficients of its characteristic polynomial are determined by their values at the 17 roots of unity of order 17 (of which
+    /// conjugate ones need no second look).
+    #[test]
+    fn the_second_ring_has_its_four_eigenvalues_in_every_block() {
+        for valence in [3, 4, 5, 6, 7, 8, 17] {
+            let field = Field::new(valence);
+            let scheme = catmull_clark_weights::<Weight>(valence).scheme("", valence).unwrap();
+            for index in 0..=valence / 2 {
+                let [inner, both] = [1, 2].map(|rings| block_polynomial(&field, &scheme.limit, rings, index).unwrap());
+                let (quotient, remainder) = both.divide(&inner, &field).unwrap();
+                assert!(remainder.is_zero(), "{valence} {index}");
+                assert_eq!(quotient.degree(), 4);
+                for power in [8, 16, 32, 64] {
+                    let value = field.rational(BigRational::new(BigInt::from(1), BigInt::from(power)));
+                    assert!(quotient.at(&value, &field).is_empty(), "{valence} {index} 1/{power}");
+                }
+            }
+        }
+    }
+
+    /// The closed forms say the same of a single lambda as the enclosed eigenvalues of the whole matrix.
+    #[test]
+    fn closed_forms_agree_with_the_matrix() {
+        for valence in [3, 4, 5, 6, 7, 8, 11, 16, 20] {
+            let problem = Problem::new(valence, &Curve::embedded(valence).unwrap(), [0.15, 0.9]).unwrap();
+            for lambda in [0.2, 0.45, 0.6, 0.85, 0.89] {
+                let points = point::points(&problem, [lambda, lambda]).unwrap();
+                assert_eq!(points.len(), 1);
+                let point = &points[0];
+                let number = |x: Centred<1>| x.enclosure();
+                let (s, f2, f3) = (number(point.plane.s), number(point.f2), number(point.f3));
+                let input = Input::Lambda {
+                    lambda,
+                    s: s.mid(),
+                    f2: f2.mid(),
+                    f3: (valence != 4).then_some(f3.mid()),
+                };
+                let (annulus, blocks) = problem_of(&input, valence).unwrap();
+                let evidence = find::evidence(&blocks);
+                let spectrum = Spectrum::new(annulus, blocks, &evidence);
+                let mu = number(point.plane.mu()).mid();
+                let mut moduli: Vec<f64> = spectrum.entries.iter().map(|e| e.value.modulus().mid()).collect();
+                moduli.sort_by(|a, b| b.total_cmp(a));
+                // without lambda and the three (N = 3: two; blocks are listed once) second-order ones
+                let skip = if valence == 4 { 4 } else { 3 };
+                let largest = moduli[skip];
+                assert_eq!(
+                    largest < mu,
+                    second_order(point)[1] == Status::Proven,
+                    "{valence} {lambda}: {largest} {mu}"
+                );
+                assert!((moduli[0] - lambda).abs() < 1e-12);
+            }
+        }
+    }
+}
