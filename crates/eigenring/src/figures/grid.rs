@@ -15,10 +15,18 @@ pub struct Grid {
 
 /// The narrowest panel of a map: titles such as "(a) N = 20, Catmull-Clark" fit above it.
 pub const NARROWEST: f64 = 33.0;
+/// The mean width of a title's characters, in millimetres; empirical.
+const CHARACTER: f64 = 1.32;
 /// The height of a panel's title and the distance to the next one, in millimetres.
 const TITLE: f64 = 7.8;
 /// The lowest figure: the label of a colour bar fits beside it.
 const LOWEST: f64 = 52.0;
+
+/// About the width of a title with its letter, in millimetres.
+pub fn title_width(title: &str) -> f64 {
+    let letters = "(a) ".chars().chain(title.chars());
+    CHARACTER * letters.filter(|letter| !"$_^{}".contains(*letter)).count() as f64
+}
 
 impl Grid {
     /// A grid of panels no narrower than given on a page of this width, of which `beside` millimetres are for colour bars.
@@ -31,6 +39,11 @@ impl Grid {
             abreast,
             across: free / abreast as f64 - 4.0,
         }
+    }
+
+    /// Whether not all columns fit side by side.
+    pub fn wraps(&self) -> bool {
+        self.abreast < self.columns
     }
 
     /// Row and column on the page.
@@ -53,9 +66,10 @@ mod tests {
     fn columns_that_do_not_fit_are_wrapped() {
         let wide = Grid::new(5, 3, Width::Two, 0.0, NARROWEST);
         assert_eq!((wide.place(4, 2), wide.abreast), ((4, 2), 3));
+        assert!(!wide.wraps());
         let narrow = Grid::new(5, 3, Width::One, 0.0, NARROWEST);
         assert_eq!((narrow.place(0, 1), narrow.place(1, 2)), ((0, 1), (6, 0)));
-        assert!(narrow.across >= NARROWEST - 4.0);
+        assert!(narrow.wraps() && narrow.across >= NARROWEST - 4.0);
         assert_eq!(Grid::new(1, 9, Width::Two, 16.0, NARROWEST).abreast, 4);
         assert!(narrow.height(30.0) > 1.9 * Grid::new(5, 2, Width::One, 0.0, NARROWEST).height(30.0));
         assert_eq!(Grid::new(1, 1, Width::One, 80.0, NARROWEST).abreast, 1);

@@ -1,13 +1,14 @@
 //! Second-order maps in space: cup and two saddles over the characteristic map (Ma, Wang and Ma 2023, Fig. 4b).
 //!
-//! A surface is curvature continuous at the centre only if these maps are quadratics: then `K* = z_xx z_yy - z_xy^2` is constant, positive on the cup and negative
-//! on saddles. Colour shows K* relative to the mean of its modulus over the outer annulus; where the sign is wrong, the region is outlined. Annuli further in
-//! follow by lambda and mu. Rows are schemes; each valence has a picture of its own. Heights are scaled to the same extent.
+//! A surface is curvature continuous at the centre only if these maps are quadratics: then `K* = z_xx z_yy - z_xy^2` is constant,
+//! positive on the cup and negative on saddles. Colour shows K* relative to the mean of its modulus over the outer annulus; where the
+//! sign is wrong, the region is outlined. Annuli further in follow by lambda and mu. Rows are schemes; each valence has a picture
+//! of its own. Heights are scaled to the same extent.
 
 use super::characteristic::resolution;
-use super::grid::{Grid, NARROWEST};
+use super::grid::{Grid, NARROWEST, title_width};
 use super::sheet::{Point, Sheet, common_inner};
-use super::subject::chosen;
+use super::subject::{Subject, chosen};
 use super::{Drawing, Entry, Inputs};
 use crate::error::Error;
 use crate::table::Table;
@@ -49,7 +50,7 @@ const OUTLINED: usize = 8;
 /// The lowest figure, in millimetres: the label of the colour bar fits beside it.
 const LOWEST: f64 = 66.0;
 /// Cells of a figure, about.
-const CELLS: f64 = 24_000.0;
+const CELLS: f64 = 33_000.0;
 /// Steps of the tables along the edge of a patch.
 const STEPS: usize = 4;
 
@@ -66,7 +67,15 @@ fn draw(valence: usize, inputs: &Inputs<'_>) -> Result<Drawing, Error> {
         inputs.colours.unwrap_or_default(),
         "$K^*$ / mean |$K^*$|  (outlined: wrong sign)",
     );
-    let grid = Grid::new(subjects.len(), 3, inputs.width, BAR, NARROWEST);
+    let title = |subject: &Subject, which: usize| format!("{}: {}", subject.title, MAPS[which]);
+    let widest = subjects.iter().map(|subject| title_width(&title(subject, 1)));
+    let narrowest = widest.fold(NARROWEST, f64::max);
+    let abreast = Grid::new(subjects.len(), 3, inputs.width, BAR, narrowest);
+    // where three maps do not fit side by side, schemes stand in the columns
+    let (grid, turned) = match abreast.wraps() {
+        true => (Grid::new(3, subjects.len(), inputs.width, BAR, narrowest), true),
+        false => (abreast, false),
+    };
     let height = grid.height(ASPECT * grid.across).max(LOWEST);
     let description = format!("Second-order maps of valence {valence}");
     let mut figure = Figure::new(inputs.width, height, description).colour_bar(&scale);
@@ -76,13 +85,12 @@ fn draw(valence: usize, inputs: &Inputs<'_>) -> Result<Drawing, Error> {
     for (row, subject) in subjects.iter().enumerate() {
         let sheets = Sheet::second_order(&subject.scheme, inner, cells)?;
         for (which, sheet) in sheets.iter().enumerate() {
-            let (at_row, at_column) = grid.place(row, which);
+            let (at_row, at_column) = match turned {
+                true => grid.place(which, row),
+                false => grid.place(row, which),
+            };
             let panel = Panel::new(surface(sheet, SIGNS[which], &scale));
-            figure = figure.panel(
-                at_row,
-                at_column,
-                panel.title(format!("{}: {}", subject.title, MAPS[which])),
-            );
+            figure = figure.panel(at_row, at_column, panel.title(title(subject, which)));
         }
         for (which, sheet) in Sheet::second_order(&subject.scheme, inner, STEPS)?.iter().enumerate() {
             for (u, v, point) in sheet.sector_points() {

@@ -117,7 +117,8 @@ pub struct Sheet {
     pub tiles: Vec<Tile>,
 }
 
-/// The hole that is left in the middle, relative to the rim: a fifth of a millimetre in a panel as wide as a third of a page.
+/// The hole that is left in the middle, relative to the rim: a fifth of a millimetre in a panel as wide as a third of a page. For more
+/// than five sectors, whose patches are narrower, it is larger in proportion.
 const HOLE: f64 = 0.008;
 /// The most annuli: with lambda = 0.9 they leave a hole of 0.06, which is closed by a fan of triangles.
 const MOST: usize = 24;
@@ -269,12 +270,11 @@ impl Sheet {
         })
     }
 
-    /// The annulus `times` further in, with 2^times fewer cells, at least one.
+    /// The annulus `times` further in, with 2^times fewer cells: the next smaller divisor, at least one.
     pub fn inward(&self, times: usize) -> Sheet {
-        let step = 1 << times.min(self.cells.ilog2() as usize);
-        // cells that are no power of two keep their odd part
-        let step = (1..=step).rev().find(|step| self.cells % step == 0).unwrap_or(1);
-        let cells = self.cells / step;
+        let wanted = self.cells.checked_shr(times as u32).unwrap_or(0).max(1);
+        let cells = (1..=wanted).rev().find(|cells| self.cells % cells == 0).unwrap_or(1);
+        let step = self.cells / cells;
         let tiles = self.tiles.iter().map(|tile| {
             let at = |i: usize, j: usize| tile.points[step * (i + j * (self.cells + 1))];
             let points = (0..=cells).flat_map(|j| (0..=cells).map(move |i| (i, j)));
@@ -292,9 +292,10 @@ impl Sheet {
         }
     }
 
-    /// This annulus and those inside it, until the hole in the middle cannot be seen.
+    /// This annulus and those inside it, until the patches cannot be told apart.
     pub fn all(&self) -> Vec<Sheet> {
-        let needed = (HOLE.ln() / self.factors.plane.abs().ln()).ceil();
+        let hole = HOLE * (self.sectors() as f64 / 5.0).max(1.0);
+        let needed = (hole.ln() / self.factors.plane.abs().ln()).ceil();
         let count = if needed >= 1.0 { needed as usize } else { MOST };
         (0..count.min(MOST)).map(|times| self.inward(times)).collect()
     }
