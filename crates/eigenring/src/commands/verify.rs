@@ -202,8 +202,17 @@ fn confirm(path: &Path) -> Result<Confirmation, Error> {
     // a certificate of a range has tiles, one of a scheme an input
     let is_range = serde_json::from_str::<serde_json::Value>(&text).is_ok_and(|value| value.get("tiles").is_some());
     let mut remarks = Vec::new();
+    // a valence in a file is no more to be trusted than one on the command line: work grows with it
+    let accepted = |valence: usize| match valence {
+        ..=args::MAX_VALENCE => Ok(()),
+        _ => Err(Error::BadFile {
+            path: path.to_owned(),
+            message: format!("valence {valence} is out of range: accepted is 3 to {}", args::MAX_VALENCE),
+        }),
+    };
     let (what, valence, intact) = if is_range {
         let certificate = RangeCertificate::from_json(&text).map_err(bad)?;
+        accepted(certificate.valence)?;
         let found = recheck_range(&certificate).map_err(bad)?;
         if !found.covered {
             remarks.push("the tiles do not cover the range".to_owned());
@@ -217,6 +226,7 @@ fn confirm(path: &Path) -> Result<Confirmation, Error> {
         (format!("lambda {start}..{end}"), certificate.valence, found.intact)
     } else {
         let certificate = Certificate::from_json(&text).map_err(bad)?;
+        accepted(certificate.valence)?;
         let found = recheck(&certificate).map_err(bad)?;
         let word = |status: Option<Status>| status.map_or("absent".to_owned(), |status| status.to_string());
         let different = found
