@@ -20,6 +20,25 @@ const AROUND: f64 = 22.0;
 /// Least and largest height of the data, in millimetres.
 const HEIGHT: (f64, f64) = (30.0, 120.0);
 
+/// Coordinates that differ by less than this part of their size are the same but for rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// The range that shows these values, which are coordinates of points as large as `size`: not that of rounding errors.
+pub fn visible_range(values: impl IntoIterator<Item = f64>, size: f64, margin: f64) -> (f64, f64) {
+    let (low, high) = range_of(values, 0.0).unwrap_or((0.0, 0.0));
+    let size = if size > 0.0 { size } else { 1.0 };
+    let beyond = match high - low {
+        span if span > ROUNDING * size => margin * span,
+        _ => size / 2.0,
+    };
+    (low - beyond, high + beyond)
+}
+
+/// The largest absolute coordinate.
+pub fn size_of<'a>(coordinates: impl IntoIterator<Item = &'a f64>) -> f64 {
+    coordinates.into_iter().fold(0.0, |size, x| size.max(x.abs()))
+}
+
 /// A polygon or curve: parameters and points, the first one repeated at the end if it is closed.
 type Path = Vec<(f64, Vec<f64>)>;
 
@@ -55,13 +74,14 @@ pub fn figure(levels: &[Curve], limit: &[(f64, Vec<f64>)], width: Width, title: 
         }
     };
     let paths: Vec<Path> = levels.iter().take(LEVELS + 1).map(polygon).collect();
+    let size = size_of(paths.iter().flatten().chain(limit).flat_map(|(_, point)| point));
     let name = |i: usize| match i {
         0 => "parameter $t$".to_owned(),
         _ => format!("${}$", coordinates(dimension)[i - 1]),
     };
     let range = |i: usize| {
         let all = paths.iter().flatten().chain(limit).map(pick(i));
-        range_of(all, 0.05).unwrap_or((0.0, 1.0))
+        visible_range(all, size, 0.05)
     };
     let abreast = if width == Width::Two { views.len() } else { 1 };
     let across = width.millimetres() / abreast as f64 - BESIDE;
@@ -134,6 +154,14 @@ mod tests {
     use crate::commands::curve::Example;
 
     #[test]
+    fn rounding_errors_are_not_shown() {
+        assert_eq!(visible_range([2.0, 2.0 + 4e-16], 2.0, 0.05), (1.0, 3.0 + 4e-16));
+        assert_eq!(visible_range([0.0], 0.0, 0.05), (-0.5, 0.5));
+        assert_eq!(visible_range([0.0, 1e-17], 8.0, 0.05), (-4.0, 4.0));
+        assert_eq!(visible_range([-1.0, 1.0], 1.0, 0.5), (-2.0, 2.0));
+    }
+
+    #[test]
     fn nothing_overlaps_or_leaves_the_page() {
         use clap::ValueEnum;
         for example in Example::value_variants() {
@@ -150,7 +178,8 @@ mod tests {
         for values in [[[1.0], [3.0], [-2.0], [0.5]], [[2.0]; 4]] {
             let curve = Curve::new(5, 2.0, Ends::Closed, &values).unwrap();
             let figure = figure(&[curve.clone()], &curve.sample(4).unwrap(), Width::One, "order 5").unwrap();
-            assert!(figure.layout().unwrap().faults().is_empty());
+            let faults = figure.layout().unwrap().faults();
+            assert!(faults.is_empty(), "{values:?}: {faults:#?}");
         }
         let many = Curve::new(3, 1.0, Ends::Open, &[[0.0; 4]; 3]).unwrap();
         assert!(figure(&[many], &[], Width::One, "").is_err());

@@ -17,28 +17,28 @@ pub fn read(path: &Path) -> Result<Vec<Vec<f64>>, Error> {
 fn parse(text: &str) -> Result<Vec<Vec<f64>>, String> {
     // spreadsheets start their files with a byte order mark
     let text = text.trim_start_matches('\u{feff}');
-    let mut reader = csv::ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .trim(csv::Trim::All)
-        .comment(Some(b'#'))
-        .from_reader(text.as_bytes());
+    let lines = text.lines().enumerate().map(|(index, line)| (index + 1, line.trim()));
+    let rows = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
     let mut columns = None;
     let mut points = Vec::new();
-    for (index, record) in reader.records().enumerate() {
-        let record = record.map_err(|error| error.to_string())?;
-        let line = record.position().map_or(index as u64 + 1, csv::Position::line);
-        let (first, expected) = *columns.get_or_insert((line, record.len()));
-        if record.len() != expected {
+    for (line, row) in rows {
+        // numbers and names need no quotes, but may have them
+        let entries: Vec<&str> = row
+            .split(',')
+            .map(|entry| entry.trim().trim_matches('"').trim())
+            .collect();
+        let is_first = columns.is_none();
+        let (first, expected) = *columns.get_or_insert((line, entries.len()));
+        if entries.len() != expected {
             return Err(format!(
                 "line {line} has {} columns, line {first} has {expected}: accepted are lines of equal length",
-                record.len()
+                entries.len()
             ));
         }
-        if index == 0 && record.iter().all(|entry| entry.parse::<f64>().is_err()) {
+        if is_first && entries.iter().all(|entry| entry.parse::<f64>().is_err()) {
             continue;
         }
-        let number = |(column, entry): (usize, &str)| match entry.parse::<f64>() {
+        let number = |(column, entry): (usize, &&str)| match entry.parse::<f64>() {
             Ok(number) if number.is_finite() => Ok(number),
             _ => Err(format!(
                 "line {line}, column {}: '{entry}': accepted are finite numbers",
@@ -46,7 +46,7 @@ fn parse(text: &str) -> Result<Vec<Vec<f64>>, String> {
             )),
         };
         points.push(
-            record
+            entries
                 .iter()
                 .enumerate()
                 .map(number)
@@ -65,7 +65,7 @@ mod tests {
         let expected = vec![vec![1.0, -2.5], vec![3e2, 0.0]];
         for text in [
             "1,-2.5\n3e2,0\n",
-            "x,y\n1,-2.5\n3e2,0",
+            "\"x\",\"y\"\n\"1\",-2.5\n3e2,0",
             "\u{feff}x, y\r\n\r\n 1 , -2.5\r\n# a remark, of three, parts\r\n3e2,0\r\n",
         ] {
             assert_eq!(parse(text).as_ref(), Ok(&expected), "{text:?}");

@@ -3,6 +3,7 @@
 //! A generatrix of two coordinates is taken as radius and height. The grid is refined in both directions (Algorithm 1); faces join points (i, j),
 //! (i, j+1), (i+1, j+1), (i+1, j), counterclockwise seen from outside where the generatrix rises.
 
+use super::picture::{size_of, visible_range};
 use crate::error::Error;
 use crate::table::Table;
 use eigenring_figure::{Colour, ColourMap, ColourScale, Figure, Panel, Stroke, Surface, View, Width, range_of};
@@ -104,13 +105,9 @@ pub fn figure(grid: &Grid, samples: usize, width: Width, title: &str) -> Result<
         .map(|row| row.iter().map(|p| spatial(p)).collect())
         .collect();
     let control: Vec<[f64; 3]> = grid.points().map(spatial).collect();
-    let heights = range_of(rows.iter().flatten().map(height), 0.0).unwrap_or((0.0, 1.0));
+    let size = size_of(control.iter().flatten());
     // a plane disc has one height
-    let heights = if heights.0 < heights.1 {
-        heights
-    } else {
-        (heights.0 - 0.5, heights.1 + 0.5)
-    };
+    let heights = visible_range(rows.iter().flatten().map(height), size, 0.0);
     let scale = ColourScale::new(ColourMap::Viridis, heights, "height $z$");
     let quads = rows.windows(2).flat_map(|pair| {
         pair[0].windows(2).zip(pair[1].windows(2)).map(|(a, b)| {
