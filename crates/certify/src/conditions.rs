@@ -137,8 +137,21 @@ pub fn subdominant(subject: &Subject, spectrum: &Spectrum, facts: &mut Facts) ->
         let text = format!("the largest eigenvalue of block 1 is {}, not positive", value.mid());
         return refuted(named(Witness::new(text), leading));
     }
-    let conjugate = leading.value.im.certainly_nonzero();
-    if conjugate && other.hi() <= modulus.hi() {
+    // whatever could be real and positive in block 1 is certainly smaller than a complex pair there
+    let real = entries()
+        .filter(of_index_1)
+        .filter(|(_, entry)| entry.value.im.contains_zero());
+    let reach_of_real = real
+        .map(|(_, entry)| entry.value.modulus().hi())
+        .chain(
+            spectrum
+                .bounds
+                .iter()
+                .filter(|bound| bound.index == 1)
+                .map(|bound| bound.radius),
+        )
+        .fold(0.0, f64::max);
+    if leading.value.im.certainly_nonzero() && reach_of_real < modulus.lo() {
         let text = format!(
             "the largest eigenvalues of block 1 are {} +- {} i",
             leading.value.re.mid(),
@@ -152,7 +165,11 @@ pub fn subdominant(subject: &Subject, spectrum: &Spectrum, facts: &mut Facts) ->
         ));
     }
     if !other.certainly_lt(value) {
-        if index == 1 && facts.repeated(spectrum, 1, value) == Some(true) {
+        let enclosed = spectrum
+            .bounds
+            .iter()
+            .all(|bound| bound.index != 1 || bound.radius < value.lo());
+        if index == 1 && enclosed && facts.repeated(spectrum, leading) == Some(true) {
             let text = format!(
                 "{} is a repeated eigenvalue of block 1: outer rings share it",
                 value.mid()
@@ -226,35 +243,61 @@ impl<'a> Facts<'a> {
         polynomial.and_then(|(field, f)| exact::is_repeated(field, &f, lambda.square())) == Some(true)
     }
 
-    /// Whether an eigenvalue of a block on one ring more than the smallest net is repeated there. Every entry of the block
-    /// that meets the interval must be meant by it.
-    fn repeated(&mut self, spectrum: &Spectrum, index: usize, value: Interval) -> Option<bool> {
+    /// Whether an eigenvalue of a block is repeated already on one ring more than the smallest net.
+    fn repeated(&mut self, spectrum: &Spectrum, entry: &Entry) -> Option<bool> {
         let rings = self.subject.scheme.closed_rings().ok()? + 1;
+        if !within(spectrum, entry, rings) {
+            return None;
+        }
+        // no root in the hull of all that come near is simple: then this one is not
         let near = spectrum
             .entries
             .iter()
-            .filter(|e| e.index == index && !e.value.re.disjoint(value));
-        let hull = near.fold(value, |hull, entry| hull.hull(entry.value.re));
-        let (field, polynomial) = self.polynomial(index, rings)?;
+            .filter(|e| e.index == entry.index && !e.value.re.disjoint(entry.value.re));
+        let hull = near.fold(entry.value.re, |hull, near| hull.hull(near.value.re));
+        let (field, polynomial) = self.polynomial(entry.index, rings)?;
         exact::is_repeated(field, &polynomial, hull)
     }
+}
+
+/// Whether an eigenvalue is one of the smaller block on `rings` rings: that of a component inside them.
+fn within(spectrum: &Spectrum, entry: &Entry, rings: usize) -> bool {
+    let Some(block) = spectrum.block(entry.index) else {
+        return false;
+    };
+    if !block.is_real() {
+        return false;
+    }
+    let numbering = spectrum.annulus.numbering;
+    let sites: Vec<usize> = numbering.sector_sites(0).map(|site| site.ring()).collect();
+    // the unknown that was divided out is the centre, or the first point around a face
+    let skipped = sites.len() - block.matrix.rows();
+    let members = &block.components[entry.component];
+    members
+        .iter()
+        .all(|&unknown| sites.get(unknown + skipped).is_some_and(|&ring| ring <= rings))
 }
 
 /// The eigenvalues that are exactly `lambda^2`: their positions among the entries, and the Fourier indices that have them.
 struct Squares {
     positions: Vec<usize>,
     indices: Vec<usize>,
-    /// An index for which it could not be decided.
-    open: Option<usize>,
+    /// The indices that certainly have none.
+    without: Vec<usize>,
 }
 
-fn squares(valence: usize, spectrum: &Spectrum, lambda: &Subdominant, facts: &mut Facts) -> Squares {
+fn squares(subject: &Subject, spectrum: &Spectrum, lambda: &Subdominant, facts: &mut Facts) -> Squares {
     let square = lambda.value.square();
+    let valence = subject.scheme.valence();
     let mut found = Squares {
         positions: Vec::new(),
         indices: Vec::new(),
-        open: None,
+        without: Vec::new(),
     };
+    // exact polynomials are those of the smallest net, which must have lambda
+    let rings = subject.scheme.closed_rings().unwrap_or(0);
+    let inner = |position: usize| within(spectrum, &spectrum.entries[position], rings);
+    let known = subject.identities.is_some() || inner(lambda.position);
     for block in &spectrum.blocks {
         let near: Vec<usize> = spectrum
             .entries
@@ -264,27 +307,39 @@ fn squares(valence: usize, spectrum: &Spectrum, lambda: &Subdominant, facts: &mu
             .filter(|(_, e)| !(e.value.re.disjoint(square) || e.value.im.certainly_nonzero()))
             .map(|(position, _)| position)
             .collect();
+        let bounded = spectrum
+            .bounds
+            .iter()
+            .all(|b| b.index != block.index || b.radius <= square.lo());
         if near.is_empty() {
+            if bounded {
+                found.without.push(block.index);
+            }
             continue;
         }
-        match (facts.square_in(block.index, lambda.value), near.len()) {
-            (Some(false), _) => {}
+        let exact = if known {
+            facts.square_in(block.index, lambda.value)
+        } else {
+            None
+        };
+        match (exact, near.len()) {
+            (Some(false), _) if bounded && near.iter().all(|&position| inner(position)) => {
+                found.without.push(block.index);
+            }
             (Some(true), 1) => {
                 found.positions.extend(near);
                 found.indices.push(block.index);
             }
             // both saddles of valence 4 lie in block 2: without Jordan block if neither component reads the other
-            (Some(true), 2)
-                if valence == 4 && block.index == 2 && {
-                    let (a, b) = (spectrum.entries[near[0]].component, spectrum.entries[near[1]].component);
-                    let apart = a != b && !block.reads[a].contains(&b) && !block.reads[b].contains(&a);
-                    apart && facts.square_is_double(block.index, lambda.value)
-                } =>
-            {
-                found.positions.extend(near);
-                found.indices.push(block.index);
+            (Some(true), 2) if valence == 4 && block.index == 2 => {
+                let (a, b) = (spectrum.entries[near[0]].component, spectrum.entries[near[1]].component);
+                let apart = a != b && !block.reads[a].contains(&b) && !block.reads[b].contains(&a);
+                if apart && near.iter().all(|&p| inner(p)) && facts.square_is_double(block.index, lambda.value) {
+                    found.positions.extend(near);
+                    found.indices.push(block.index);
+                }
             }
-            _ => found.open = Some(block.index),
+            _ => {}
         }
     }
     found
@@ -293,7 +348,7 @@ fn squares(valence: usize, spectrum: &Spectrum, lambda: &Subdominant, facts: &mu
 /// `bounded_curvature`, `non_degenerate` and `strict`.
 pub fn second_order(subject: &Subject, spectrum: &Spectrum, lambda: &Subdominant, facts: &mut Facts) -> [Check; 3] {
     let valence = subject.scheme.valence();
-    let squares = squares(valence, spectrum, lambda, facts);
+    let squares = squares(subject, spectrum, lambda, facts);
     [
         bounded(spectrum, lambda, &squares),
         non_degenerate(valence, spectrum, lambda, &squares),
@@ -361,25 +416,31 @@ fn non_degenerate(valence: usize, spectrum: &Spectrum, lambda: &Subdominant, squ
             .map(|(_, entry)| entry)
             .collect();
         in_block.sort_by(|a, b| b.value.modulus().mid().total_cmp(&a.value.modulus().mid()));
-        let bounded_below = spectrum
+        let wanted = if valence == 4 && index == 2 { 2 } else { 1 };
+        if squares.without.contains(&index) {
+            let nearest = in_block
+                .get(wanted - 1)
+                .map_or(Interval::point(0.0), |entry| entry.value.re);
+            let ratio = nearest / square;
+            let text = format!("block {index}: mu is {} lambda^2", ratio.mid());
+            let witness = Witness::new(text).with("mu", nearest).with("ratio", ratio);
+            return Check::refuted(NAME, witness).enclosing(ratio);
+        }
+        // one of the two saddles of valence 4 has it, the other has not
+        let candidates = in_block.iter().filter(|e| !e.value.re.disjoint(square)).count();
+        let bounded = spectrum
             .bounds
             .iter()
             .all(|b| b.index != index || b.radius <= square.lo());
-        let candidates = in_block.iter().filter(|e| !e.value.re.disjoint(square)).count();
-        let wanted = if valence == 4 && index == 2 { 2 } else { 1 };
-        let decided_false = !squares.indices.contains(&index) && squares.open != Some(index);
-        if candidates < wanted && bounded_below || decided_false && candidates == 0 {
-            let nearest = in_block
-                .get(wanted - 1)
-                .map(|e| e.value.re)
-                .unwrap_or(Interval::point(0.0));
-            let ratio = nearest / square;
-            let text = format!("block {index}: mu is {} lambda^2", ratio.mid());
-            return Check::refuted(NAME, Witness::new(text).with("mu", nearest).with("ratio", ratio)).enclosing(ratio);
-        }
-        if decided_false {
-            let text = format!("block {index}: in exact arithmetic lambda^2 is not an eigenvalue");
-            return Check::refuted(NAME, Witness::new(text).with("lambda", lambda.value));
+        if candidates < wanted && bounded {
+            let other = in_block.iter().find(|e| e.value.re.disjoint(square));
+            let mu = other.map_or(Interval::point(0.0), |entry| entry.value.re);
+            let text = format!(
+                "block {index}: a second-order eigenvalue is {} lambda^2",
+                (mu / square).mid()
+            );
+            let witness = Witness::new(text).with("mu", mu).with("ratio", mu / square);
+            return Check::refuted(NAME, witness).enclosing(mu / square);
         }
         if !squares.indices.contains(&index) {
             return Check::undecided(

@@ -35,6 +35,10 @@ pub const MAX_SIZE: usize = 8;
 /// Whether the square of a root of `first` is a root of `second`, given an interval that holds exactly one root of `first`, a
 /// simple one. `None` if this cannot be told.
 pub fn square_is_root(field: &Field, first: &Poly, second: &Poly, root: Interval) -> Option<bool> {
+    if first.enclose(field, root).certainly_nonzero() {
+        // not a root of this polynomial at all
+        return None;
+    }
     let common = first.gcd(&second.substitute_square(field), field)?;
     if common.degree() == 0 {
         return Some(false);

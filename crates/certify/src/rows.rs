@@ -28,6 +28,13 @@ fn sites(subject: &Subject) -> Result<Vec<Site>, Error> {
 pub fn row_sums(subject: &Subject) -> Result<Check, Error> {
     const NAME: &str = "row_sums";
     let sites = sites(subject)?;
+    let sums = refine(&subject.scheme.limit, &OneNet, &sites)?;
+    if !sums.iter().all(|sum| sum.is_bounded()) {
+        return Ok(Check::undecided(
+            NAME,
+            "the weights are not bounded: a closed form divides by zero or nearly so",
+        ));
+    }
     if subject.identities.is_some() || !subject.floating && subject.exact.is_none() {
         return Ok(Check::proven(NAME)
             .enclosing(Interval::point(0.0))
@@ -60,7 +67,6 @@ pub fn row_sums(subject: &Subject) -> Result<Check, Error> {
         }
     }
     // rounded weights, or exact ones that do not fit: the defect is enclosed
-    let sums = refine(&subject.scheme.limit, &OneNet, &sites)?;
     let one = Interval::point(1.0);
     let (site, worst) = sites
         .iter()

@@ -77,12 +77,11 @@ proptest! {
             }
         }
         // the inverse of a unit triangular matrix by forward substitution
-        let mut inverse = vec![vec![0_i64; size]; size];
-        for j in 0..size {
-            for i in j..size {
-                let sum: i64 = (j..i).map(|k| t[i][k] * inverse[k][j]).sum();
-                inverse[i][j] = i64::from(i == j) - sum;
-            }
+        let mut inverse: Vec<Vec<i64>> = Vec::new();
+        for (i, row) in t.iter().enumerate() {
+            let entry = |j: usize| i64::from(i == j) - (0..i).map(|k| row[k] * inverse[k][j]).sum::<i64>();
+            let next = (0..size).map(entry).collect();
+            inverse.push(next);
         }
         let s = Matrix::from_fn(size, size, |i, j| {
             (0..size).map(|k| t[i][k] * i64::from(values[k]) * inverse[k][j]).sum::<i64>() as f64 / 64.0

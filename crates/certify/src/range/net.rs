@@ -74,7 +74,7 @@ fn eliminate<S: Enclose>(matrix: Matrix<S>, right: Vec<S>) -> Option<Vec<S>> {
             }
             let factor = row[k] / upper[k][k];
             for (entry, &pivot) in row.iter_mut().zip(&upper[k]).skip(k) {
-                *entry = *entry - factor * pivot;
+                *entry -= factor * pivot;
             }
         }
     }
