@@ -41,6 +41,9 @@ pub struct Entry {
     pub shows: String,
     /// What makes it, without `--out`.
     pub command: String,
+    /// The subfolder that is handed to the command as `--out`; none for commands that choose their own.
+    #[serde(default)]
+    pub folder: PathBuf,
     /// What re-checks it when making it anew takes long; `{out}` stands for the folder.
     pub check: Option<String>,
     /// Its files, relative to the folder; none means all that the command writes.
@@ -119,6 +122,7 @@ impl Index {
                     .map_or(String::new(), |name| name.to_string_lossy().into_owned()),
                 shows: String::new(),
                 command: command.to_owned(),
+                folder: PathBuf::new(),
                 check: None,
                 files: Vec::new(),
                 tests: Vec::new(),
@@ -164,7 +168,7 @@ const EVERYTHING: &str = "tables.json";
 
 impl Entry {
     fn validate(&self) -> Result<(), String> {
-        for path in &self.files {
+        for path in self.files.iter().chain([&self.folder]) {
             let inside = path
                 .components()
                 .all(|part| matches!(part, std::path::Component::Normal(_)));
@@ -193,6 +197,7 @@ impl Entry {
     /// The words of the command that writes the files below a folder.
     fn making(&self, out: &Path) -> Vec<String> {
         let words = self.command.split_whitespace().map(str::to_owned);
+        let out = if self.folder.as_os_str().is_empty() { out.to_owned() } else { out.join(&self.folder) };
         words
             .chain(["--out".to_owned(), out.to_string_lossy().into_owned()])
             .collect()

@@ -7,6 +7,7 @@
 
 mod certificates;
 mod characteristic;
+mod characteristic_meshes;
 mod curvature_sign;
 mod feasible_domain;
 mod feasible_region;
@@ -107,10 +108,11 @@ pub const FIGURES: &[Entry] = &[
     feasible_domain::ENTRY,
     natural::ENTRY,
     characteristic::ENTRY,
+    characteristic_meshes::ENTRY,
     second_order::ENTRY,
     spectra::ENTRY,
-    certificates::ENTRY,
     tension_curves::ENTRY,
+    certificates::ENTRY,
 ];
 
 impl Entry {

@@ -3,7 +3,7 @@
 use super::sheet::{Turn, natural};
 use crate::error::Error;
 use eigenring_figure::{Chart, Colour, LINE, Marker, Stroke, Style};
-use eigenring_scheme::{Scheme, Site};
+use eigenring_scheme::{Level, Scheme, Site};
 use eigenring_spectral::LocalSystem;
 
 /// The inner rings of a natural configuration, its first point (1, 0) turned so that a sector's bisector points up.
@@ -21,11 +21,16 @@ pub struct Net {
 impl Net {
     /// As many rings of faces as given around a vertex, half a ring less around a face.
     pub fn new(scheme: &Scheme<f64>, rings: usize) -> Result<Self, Error> {
+        Net::at(scheme, scheme.limit(), rings)
+    }
+
+    /// The net of one of the scheme's levels.
+    pub fn at(scheme: &Scheme<f64>, level: &Level<f64>, rings: usize) -> Result<Self, Error> {
         let parity = scheme.lattice().parity();
         let numbering = scheme.numbering(if parity == 0 { rings } else { rings.saturating_sub(1) });
         // an eigenvector of more rings continues that of fewer
         let closed = scheme.closed_rings()?.max(numbering.rings);
-        let (lambda, [x, y]) = natural(&LocalSystem::new(scheme.limit(), closed)?)?;
+        let (lambda, [x, y]) = natural(&LocalSystem::new(level, closed)?)?;
         let sectors = numbering.fan.sectors();
         let turn = Turn::upright(numbering.lattice, sectors);
         let points = numbering.sites().into_iter().enumerate();
