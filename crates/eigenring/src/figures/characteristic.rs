@@ -41,10 +41,8 @@ const STEPS: usize = 4;
 /// add a third, and more where cells cannot become fewer.
 pub fn resolution(patches: usize, cells: f64) -> usize {
     let wanted = (0.7 * cells / patches as f64).sqrt();
-    [16, 12, 8, 6, 4, 3]
-        .into_iter()
-        .find(|&k| k as f64 <= wanted)
-        .unwrap_or(2)
+    let allowed = [16, 12, 8, 6, 4];
+    allowed.into_iter().find(|&k| k as f64 <= wanted).unwrap_or(2)
 }
 
 fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {

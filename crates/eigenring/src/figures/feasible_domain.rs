@@ -166,21 +166,19 @@ fn chart(found: &Found, scale: &ColourScale) -> Chart {
         (1, Marker::Circle, Colour::line(1), "other minima"),
     ];
     let flat = found.problem.domain.plane().valence == 4;
-    let (mut chart, place): (Chart, fn([f64; 2], f64) -> [f64; 2]) = if flat {
+    // where a point of the domain with its value is drawn
+    let place = |at: [f64; 2], value: f64| [at[0], if flat { value } else { at[1] }];
+    let mut chart = if flat {
         let points: Vec<[f64; 2]> = found
             .cells
             .iter()
             .map(|cell| [cell.middle[0], value(cell.total)])
             .collect();
         let y = range_of(points.iter().map(|p| p[1]).chain([0.0]), 0.05).unwrap_or((0.0, 1.0));
-        let chart = Chart::new(f2, Axis::new("log$_{10}$ $E/E_{min}$", y)).series(points, Style::line(0));
-        (chart, |at, value| [at[0], value])
+        Chart::new(f2, Axis::new("log$_{10}$ $E/E_{min}$", y)).series(points, Style::line(0))
     } else {
         let cells = found.cells.iter().map(|cell| (cell.corners.clone(), value(cell.total)));
-        (
-            Chart::new(f2, Axis::new("$f_3$", range(1))).cells(cells, scale),
-            |at, _| at,
-        )
+        Chart::new(f2, Axis::new("$f_3$", range(1))).cells(cells, scale)
     };
     for (kind, marker, colour, label) in marks {
         let points: Vec<[f64; 2]> = found

@@ -273,7 +273,10 @@ impl Sheet {
     /// The annulus `times` further in, with 2^times fewer cells: the next smaller divisor, at least one.
     pub fn inward(&self, times: usize) -> Sheet {
         let wanted = self.cells.checked_shr(times as u32).unwrap_or(0).max(1);
-        let cells = (1..=wanted).rev().find(|cells| self.cells % cells == 0).unwrap_or(1);
+        let cells = (1..=wanted)
+            .rev()
+            .find(|&cells| self.cells.is_multiple_of(cells))
+            .unwrap_or(1);
         let step = self.cells / cells;
         let tiles = self.tiles.iter().map(|tile| {
             let at = |i: usize, j: usize| tile.points[step * (i + j * (self.cells + 1))];
@@ -310,20 +313,20 @@ impl Sheet {
         })
     }
 
-    /// Triangles from the inner boundary to the centre, the last corner twice.
-    pub fn fan(&self) -> impl Iterator<Item = [Point; 4]> + '_ {
-        self.inner_edges().flat_map(|edge| {
-            let pieces: Vec<_> = edge.windows(2).map(|pair| (pair[0], pair[1])).collect();
-            pieces.into_iter().map(|(a, b)| {
-                let centre = Point {
-                    x: 0.0,
-                    y: 0.0,
-                    z: 0.0,
-                    value: 0.5 * (a.value + b.value),
-                };
-                [a, b, centre, centre]
-            })
-        })
+    /// Triangles from the inner boundary to the centre, the last corner twice, all with the boundary's mean value.
+    pub fn fan(&self) -> Vec<[Point; 4]> {
+        let edges: Vec<Vec<Point>> = self.inner_edges().collect();
+        let count = edges.iter().map(Vec::len).sum::<usize>() as f64;
+        let value = edges.iter().flatten().map(|point| point.value).sum::<f64>() / count;
+        let centre = Point {
+            x: 0.0,
+            y: 0.0,
+            z: 0.0,
+            value,
+        };
+        let pairs = edges.iter().flat_map(|edge| edge.windows(2));
+        let triangles = pairs.map(|pair| [Point { value, ..pair[0] }, Point { value, ..pair[1] }, centre, centre]);
+        triangles.collect()
     }
 
     fn line(&self, tile: &Tile, along_u: bool, at: usize) -> Vec<Point> {
@@ -366,7 +369,7 @@ impl Sheet {
 
     /// Isoparametric lines inside the patches, `parts` - 1 each way; none where the grid has no such lines.
     pub fn isolines(&self, parts: usize) -> Vec<Vec<Point>> {
-        if parts == 0 || self.cells % parts != 0 {
+        if parts == 0 || !self.cells.is_multiple_of(parts) {
             return Vec::new();
         }
         let inside = (1..parts).map(|k| k * self.cells / parts);
