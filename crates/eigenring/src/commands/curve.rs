@@ -52,7 +52,7 @@ pub struct Arguments {
     #[arg(long)]
     open: bool,
     /// Control points of the example, up to 64
-    #[arg(long, value_name = "COUNT", requires = "example", value_parser = args::count, allow_negative_numbers = true)]
+    #[arg(long, value_name = "COUNT", conflicts_with = "points", value_parser = args::count, allow_negative_numbers = true)]
     count: Option<usize>,
     /// Levels of refinement
     #[arg(long, value_name = "COUNT", default_value_t = 3, value_parser = args::count, allow_negative_numbers = true)]

@@ -177,7 +177,13 @@ mod tests {
         // one coordinate, and one that is constant
         for values in [[[1.0], [3.0], [-2.0], [0.5]], [[2.0]; 4]] {
             let curve = Curve::new(5, 2.0, Ends::Closed, &values).unwrap();
-            let figure = figure(&[curve.clone()], &curve.sample(4).unwrap(), Width::One, "order 5").unwrap();
+            let figure = figure(
+                std::slice::from_ref(&curve),
+                &curve.sample(4).unwrap(),
+                Width::One,
+                "order 5",
+            )
+            .unwrap();
             let faults = figure.layout().unwrap().faults();
             assert!(faults.is_empty(), "{values:?}: {faults:#?}");
         }
