@@ -197,7 +197,11 @@ impl Entry {
     /// The words of the command that writes the files below a folder.
     fn making(&self, out: &Path) -> Vec<String> {
         let words = self.command.split_whitespace().map(str::to_owned);
-        let out = if self.folder.as_os_str().is_empty() { out.to_owned() } else { out.join(&self.folder) };
+        let out = if self.folder.as_os_str().is_empty() {
+            out.to_owned()
+        } else {
+            out.join(&self.folder)
+        };
         words
             .chain(["--out".to_owned(), out.to_string_lossy().into_owned()])
             .collect()

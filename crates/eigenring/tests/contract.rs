@@ -343,7 +343,11 @@ fn help_has_examples_and_no_escape_sequences() {
         // the examples in help texts are run, but those that take long or need files
         for line in help.lines().filter(|line| line.starts_with("  eigenring ")) {
             let line = line.split("   ").next().unwrap_or(line).trim();
-            if line.contains("tables") || line.contains("reproduce") || line.contains("--matrix") || line.contains("--all") {
+            if line.contains("tables")
+                || line.contains("reproduce")
+                || line.contains("--matrix")
+                || line.contains("--all")
+            {
                 continue;
             }
             let arguments: Vec<&str> = line.split_whitespace().skip(1).collect();

@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{Place, has_fields, number};
+use common::{Place, csv_rows, has_fields, number};
 use eigenring_certify::range::RangeCertificate;
 use eigenring_certify::{Certificate, Status};
 use serde_json::Value;
@@ -537,4 +537,46 @@ fn tables_in_every_format() {
             }
         }
     }
+}
+
+#[test]
+fn all_certificates_are_made_confirmed_and_drawn() {
+    let place = Place::new();
+    place.ok(&["verify", "--all", "--valences", "4"]);
+    let singles = csv_rows(&place.read("results/certificates/summary.csv"));
+    // Catmull-Clark at 3 to 64, the lambda-scheme at A, M and C
+    assert_eq!(singles.len(), 62 + 3);
+    assert!(singles.iter().all(|row| row["is_c1"] == "proven"));
+    let found = place.json("verify --recheck results/certificates");
+    let found = found.as_array().unwrap();
+    assert_eq!(found.len(), 62 + 3 + 2);
+    assert!(found.iter().all(|row| row["result"] == "confirmed"), "{found:?}");
+    // the rule gives s = 1 from lambda_l + 0.01 on, lambda_l^2 = 1/8
+    let ranges = csv_rows(&place.read("results/certificates/ranges.csv"));
+    let bounded = |row: &&std::collections::BTreeMap<String, String>| {
+        row["range"] == "tabulated" && row["require"] == "bounded" && row["status"] == "proven"
+    };
+    let from: Vec<f64> = ranges
+        .iter()
+        .filter(bounded)
+        .map(|row| row["from"].parse().unwrap())
+        .collect();
+    assert_eq!(from.len(), 1);
+    assert!((from[0] - (0.125_f64.sqrt() + 0.01)).abs() < 1e-6);
+    // the picture is the same from stored certificates and from new ones
+    let tables = concat!(env!("CARGO_MANIFEST_DIR"), "/../../results/lambda/tables.json");
+    std::fs::create_dir_all(place.path().join("results/lambda")).unwrap();
+    place.write("results/lambda/tables.json", std::fs::read(tables).unwrap());
+    let drawn = |folder: &str| {
+        let run = place
+            .command(&["plot", "certificates", "--valences", "4", "--out", folder])
+            .output()
+            .unwrap();
+        assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+        csv_rows(&place.read(&format!("{folder}/certificates.csv")))
+    };
+    let stored = drawn("stored");
+    std::fs::remove_file(place.path().join("results/certificates/ranges.csv")).unwrap();
+    assert_eq!(stored, drawn("new"));
+    assert!(stored.len() >= 4);
 }

@@ -48,7 +48,13 @@ pub struct Arguments {
     #[arg(long, group = "what")]
     all: bool,
     /// With --all: valences of the lambda-scheme
-    #[arg(long, value_name = "LIST", default_value = "3..20", allow_hyphen_values = true, requires = "all")]
+    #[arg(
+        long,
+        value_name = "LIST",
+        default_value = "3..20",
+        allow_hyphen_values = true,
+        requires = "all"
+    )]
     valences: Valences,
     /// With --all: output folder; files go to its subfolder certificates
     #[arg(long, value_name = "FOLDER", default_value = "results", requires = "all")]
@@ -120,7 +126,10 @@ impl Arguments {
             files::write(path, certificate.to_json()?.as_bytes())?;
         }
         let requirement = self.require.into();
-        files::emit(None, report::certificate(&certificate, requirement, self.format.format).as_bytes())?;
+        files::emit(
+            None,
+            report::certificate(&certificate, requirement, self.format.format).as_bytes(),
+        )?;
         let (_, status) = requirement.verdict(&certificate.checks);
         if status == Status::Numerical {
             note("holds for weights that are results of rounding; of the exact scheme nothing is proven");
@@ -130,9 +139,13 @@ impl Arguments {
 
     fn over_range(&self, valence: usize, lambda: [f64; 2]) -> Result<ExitCode, Error> {
         let curve = match &self.scheme {
-            None | Some(SchemeArg::Spec(Spec::LambdaOptimal | Spec::Lambda { weights: None, s: None, .. })) => {
-                Curve::embedded(valence)?
-            }
+            None
+            | Some(SchemeArg::Spec(
+                Spec::LambdaOptimal
+                | Spec::Lambda {
+                    weights: None, s: None, ..
+                },
+            )) => Curve::embedded(valence)?,
             Some(SchemeArg::Spec(Spec::Lambda {
                 weights: Some((f2, f3)),
                 s: None,
@@ -156,15 +169,25 @@ impl Arguments {
         if let Some(path) = &self.output {
             files::write(path, certificate.to_json()?.as_bytes())?;
         }
-        files::emit(None, report::range(&certificate, requirement, self.format.format).as_bytes())?;
-        let proven = certificate.required(requirement).iter().all(|s| s.status == Status::Proven);
+        files::emit(
+            None,
+            report::range(&certificate, requirement, self.format.format).as_bytes(),
+        )?;
+        let proven = certificate
+            .required(requirement)
+            .iter()
+            .all(|s| s.status == Status::Proven);
         Ok(exit(proven))
     }
 
     fn check_again(&self, path: &Path) -> Result<ExitCode, Error> {
         let paths = if path.is_dir() {
             let json = |name: &PathBuf| name.extension().is_some_and(|extension| extension == "json");
-            files::below(path)?.into_iter().filter(json).map(|name| path.join(name)).collect()
+            files::below(path)?
+                .into_iter()
+                .filter(json)
+                .map(|name| path.join(name))
+                .collect()
         } else {
             vec![path.to_owned()]
         };
@@ -207,7 +230,10 @@ fn confirm(path: &Path) -> Result<Confirmation, Error> {
         ..=args::MAX_VALENCE => Ok(()),
         _ => Err(Error::BadFile {
             path: path.to_owned(),
-            message: format!("valence {valence} is out of range: accepted is 3 to {}", args::MAX_VALENCE),
+            message: format!(
+                "valence {valence} is out of range: accepted is 3 to {}",
+                args::MAX_VALENCE
+            ),
         }),
     };
     let (what, valence, intact) = if is_range {
@@ -229,10 +255,15 @@ fn confirm(path: &Path) -> Result<Confirmation, Error> {
         accepted(certificate.valence)?;
         let found = recheck(&certificate).map_err(bad)?;
         let word = |status: Option<Status>| status.map_or("absent".to_owned(), |status| status.to_string());
-        let different = found
-            .differences
-            .iter()
-            .map(|d| format!("{} ({}): claimed {}, found {}", d.name, d.what, word(d.claimed), word(d.found)));
+        let different = found.differences.iter().map(|d| {
+            format!(
+                "{} ({}): claimed {}, found {}",
+                d.name,
+                d.what,
+                word(d.claimed),
+                word(d.found)
+            )
+        });
         remarks.extend(different);
         (certificate.input.name(), certificate.valence, found.intact)
     };
@@ -254,7 +285,9 @@ fn input(scheme: &SchemeArg, valence: usize) -> Result<Input, Error> {
         SchemeArg::File(path) => {
             // read as a scheme first, so that mistakes are reported with the file's name
             scheme.scheme(valence)?;
-            let name = path.file_stem().map_or("scheme".into(), |stem| stem.to_string_lossy().into_owned());
+            let name = path
+                .file_stem()
+                .map_or("scheme".into(), |stem| stem.to_string_lossy().into_owned());
             Ok(Input::Toml {
                 text: files::read(path)?,
                 name,

@@ -2,8 +2,8 @@
 //!
 //! A bar for each valence is cut where the status of a requirement changes. Undecided intervals, at kinks of the relaxation, are often narrower than any
 //! line: they are drawn with an outline, which stays visible, and the table has their ends. The statements are
-//! those of docs/certificates.md; they come from `certificates/ranges.csv` of the results, or from proofs made on the spot, whose
-//! ends are known to three digits only.
+//! those of docs/certificates.md; they come from `certificates/ranges.csv` of the results. Without that file they are proven on the spot, some seconds
+//! a valence, and of many valences only a few are shown.
 
 use super::{Drawing, Entry, Inputs};
 use crate::error::Error;
@@ -39,11 +39,8 @@ pub const TABULATED: &str = "tabulated";
 /// Half the width of a bar, of 1 from valence to valence.
 const HALF: f64 = 0.4;
 
-/// Proofs on the spot stop here: a tile of 1/1000 is a tenth of a millimetre high.
-const ON_THE_SPOT: Limits = Limits {
-    width: 1e-3,
-    tiles: 4000,
-};
+/// The valences shown where more are asked for and none is stored.
+const FEW: [usize; 6] = [3, 4, 6, 8, 12, 20];
 
 /// A line of `ranges.csv`, of which the witness is not shown.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -78,7 +75,7 @@ fn proven(inputs: &Inputs<'_>, valence: usize) -> Result<Vec<Interval>, Error> {
         f2: entry.f2.to_vec(),
         f3: entry.f3.to_vec(),
     };
-    let certificate = prove_range(valence, curve, lambda, ON_THE_SPOT)?;
+    let certificate = prove_range(valence, curve, lambda, Limits::default())?;
     let of = |requirement: Requirement| {
         let segments = certificate.required(requirement).into_iter();
         segments.map(move |segment| Interval {
@@ -93,7 +90,17 @@ fn proven(inputs: &Inputs<'_>, valence: usize) -> Result<Vec<Interval>, Error> {
     Ok(SHOWN.into_iter().flat_map(|(requirement, _)| of(requirement)).collect())
 }
 
-fn intervals(inputs: &Inputs<'_>) -> Result<Vec<Interval>, Error> {
+/// The valences of the picture.
+fn valences(inputs: &Inputs<'_>) -> Vec<usize> {
+    let all = inputs.valences;
+    if inputs.studies.ranges.is_some() || all.len() <= FEW.len() {
+        return all.to_vec();
+    }
+    let few: Vec<usize> = all.iter().copied().filter(|valence| FEW.contains(valence)).collect();
+    if few.is_empty() { all[..FEW.len()].to_vec() } else { few }
+}
+
+fn intervals(inputs: &Inputs<'_>, valences: &[usize]) -> Result<Vec<Interval>, Error> {
     let known = inputs
         .studies
         .ranges
@@ -108,7 +115,7 @@ fn intervals(inputs: &Inputs<'_>) -> Result<Vec<Interval>, Error> {
         }
         Ok(here)
     };
-    let found: Vec<Vec<Interval>> = inputs.valences.par_iter().map(of).collect::<Result<_, Error>>()?;
+    let found: Vec<Vec<Interval>> = valences.par_iter().map(of).collect::<Result<_, Error>>()?;
     let shown = |row: &Interval| SHOWN.iter().any(|(requirement, _)| requirement.name() == row.require);
     Ok(found.into_iter().flatten().filter(shown).collect())
 }
@@ -121,7 +128,7 @@ struct Featured {
     ends: [Option<f64>; 2],
 }
 
-fn featured(inputs: &Inputs<'_>) -> Result<Vec<Featured>, Error> {
+fn featured(inputs: &Inputs<'_>, valences: &[usize]) -> Result<Vec<Featured>, Error> {
     let of = |&valence: &usize| {
         let entry = inputs.studies.entry(valence)?;
         Ok(Featured {
@@ -134,11 +141,12 @@ fn featured(inputs: &Inputs<'_>) -> Result<Vec<Featured>, Error> {
             ],
         })
     };
-    inputs.valences.iter().map(of).collect()
+    valences.iter().map(of).collect()
 }
 
 fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
-    let (intervals, featured) = (intervals(inputs)?, featured(inputs)?);
+    let valences = valences(inputs);
+    let (intervals, featured) = (intervals(inputs, &valences)?, featured(inputs, &valences)?);
     let (height, second) = if inputs.is_wide() {
         (92.0, (0, 1))
     } else {
@@ -151,7 +159,7 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
     );
     for ((requirement, title), (row, column)) in SHOWN.into_iter().zip([(0, 0), second]) {
         let of = intervals.iter().filter(|row| row.require == requirement.name());
-        let panel = Panel::new(chart(inputs.valences, of, &featured)).title(title);
+        let panel = Panel::new(chart(&valences, of, &featured)).title(title);
         figure = figure.panel(row, column, panel);
     }
     Ok(vec![Drawing {

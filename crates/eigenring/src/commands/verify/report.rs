@@ -59,7 +59,10 @@ pub fn certificate(certificate: &Certificate, requirement: Requirement, format: 
     }
     let text = table.render(format);
     match format {
-        Format::Text => format!("{scheme}, N = {valence}\n\n{text}\n{} is {status}\n", requirement.name()),
+        Format::Text => format!(
+            "{scheme}, N = {valence}\n\n{text}\n{} is {status}\n",
+            requirement.name()
+        ),
         _ => text,
     }
 }
