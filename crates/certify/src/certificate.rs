@@ -236,6 +236,15 @@ fn second_order_maps(
         let modulus = |position: usize| spectrum.entries[position].value.modulus().mid();
         of_block.sort_by(|&a, &b| modulus(b).total_cmp(&modulus(a)));
         of_block.truncate(count);
+        // one that is only bounded may be the one that is looked for
+        let smallest = of_block
+            .iter()
+            .map(|&position| spectrum.entries[position].value.modulus().lo());
+        let smallest = smallest.fold(f64::INFINITY, f64::min);
+        let mut bounds = spectrum.bounds.iter().filter(|bound| bound.index == index);
+        if bounds.any(|bound| bound.radius >= smallest) {
+            of_block.clear();
+        }
         of_block
     };
     let heights = |position: usize, sign: Sign| {
@@ -256,7 +265,7 @@ fn second_order_maps(
         4 => largest(2, 2),
         _ => largest(2, 1),
     };
-    let wanted = 1 + saddles.len();
+    let wanted = if n == 4 { 3 } else { 2 };
     let found: Vec<_> = largest(0, 1)
         .into_iter()
         .filter_map(|position| heights(position, Sign::Positive))

@@ -499,15 +499,34 @@ fn strict(subject: &Subject, spectrum: &Spectrum, lambda: &Subdominant, squares:
     let Some(mu) = mu else {
         return Check::undecided(NAME, "no second-order eigenvalues");
     };
+    // one that is only bounded may be the second-order eigenvalue of its block
+    let hidden = spectrum
+        .bounds
+        .iter()
+        .find(|bound| second_order_indices(valence).contains(&bound.index) && bound.radius >= mu.lo());
+    if let Some(bound) = hidden {
+        return Check::undecided(
+            NAME,
+            format!(
+                "block {} has eigenvalues of modulus up to {}, which may be mu",
+                bound.index, bound.radius
+            ),
+        );
+    }
     let Some((other, index)) = spectrum.largest_other(&chosen) else {
         return Check::undecided(NAME, "no further eigenvalues");
     };
     let ratio = other / mu;
-    let larger = spectrum
-        .entries
-        .iter()
-        .enumerate()
-        .find(|(position, entry)| !chosen.contains(position) && entry.value.modulus().lo() > mu.hi());
+    // within a block the chosen ones must be known to come first
+    let comes_after = |entry: &Entry| {
+        let before = chosen[1..].iter().map(|&position| &spectrum.entries[position]);
+        before
+            .filter(|first| first.index == entry.index)
+            .all(|first| first.value.modulus().lo() >= entry.value.modulus().hi())
+    };
+    let larger = spectrum.entries.iter().enumerate().find(|(position, entry)| {
+        !chosen.contains(position) && entry.value.modulus().lo() > mu.hi() && comes_after(entry)
+    });
     if let Some((_, entry)) = larger {
         let text = format!(
             "an eigenvalue of block {} has modulus {}, mu is {}",

@@ -585,3 +585,34 @@ fn a_curve_that_leaves_the_domain_is_refuted_where_it_does() {
         assert!(segment.witness.as_ref().unwrap().data["lambda"].contains(lambda));
     }
 }
+
+/// Without evidence for the second-order blocks their largest eigenvalues are only bounded. What is then claimed of mu must
+/// not be what holds for some smaller eigenvalue that happens to be enclosed.
+#[test]
+fn a_hidden_second_order_eigenvalue_is_not_passed_over() {
+    let mut opened = 0;
+    for (spec, valence) in [("tension:order=6", 5), ("tension:order=5", 6), ("tension:order=6", 4)] {
+        let input = Input::from_spec(&spec.parse().unwrap(), valence).unwrap();
+        let honest = certify(input.clone(), valence).unwrap();
+        for hidden in [0, 2] {
+            let mut evidence = honest.evidence.clone();
+            for peel in &mut evidence.spectrum[hidden] {
+                *peel = Default::default();
+            }
+            for check in eigenring_certify::check(&input, valence, &evidence).unwrap() {
+                let before = honest
+                    .check(&check.name)
+                    .map_or(Status::Undecided, |check| check.status);
+                let weaker = check.status == before || check.status == Status::Undecided;
+                assert!(
+                    weaker,
+                    "{spec} {valence}: {} was {before}, is {}",
+                    check.name, check.status
+                );
+                opened += usize::from(check.name == "strict" && check.status != before);
+            }
+        }
+    }
+    // small components need no evidence; the others do
+    assert!(opened >= 3, "{opened}");
+}

@@ -22,7 +22,7 @@ use std::str::FromStr;
 /// files that were written are printed.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  eigenring plot --list\n  eigenring plot --all\n  eigenring plot samples --valences 5,8 --size one\n  eigenring plot stencils --valences 3..20 --range 0.3..0.7 --format svg --out /tmp/figures"
+    after_help = "Examples:\n  eigenring plot --list\n  eigenring plot --all\n  eigenring plot samples --valences 5,8 --size one\n  eigenring plot characteristic-map --schemes catmull-clark,lambda:optimal --valences 5,8\n  eigenring plot stencils --valences 3..20 --range 0.3..0.7 --format svg --out /tmp/figures"
 )]
 pub struct Arguments {
     /// Names of figures; see --list

@@ -63,6 +63,9 @@ pub struct Arguments {
     format: Output,
 }
 
+/// Degrees from which a certificate takes ten seconds or more: 11 s at order 14, minutes at order 22.
+const LARGE: usize = 13;
+
 /// See [`Requirement`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 enum Required {
@@ -121,7 +124,11 @@ impl Arguments {
             message: "no scheme is given".to_owned(),
             accepted: "--scheme SPEC".to_owned(),
         })?;
-        let certificate = certify(input(scheme, valence)?, valence)?;
+        let input = input(scheme, valence)?;
+        if scheme.scheme(valence)?.degree >= LARGE {
+            note("patches of high degree have large blocks: this may take minutes");
+        }
+        let certificate = certify(input, valence)?;
         if let Some(path) = &self.output {
             files::write(path, certificate.to_json()?.as_bytes())?;
         }
