@@ -117,7 +117,12 @@ impl Subject {
                 "eigenvalues up to {} appear with the rings beyond {closed}",
                 short(outer)
             );
-            notes.push(format!("{rings} rings, the smallest closed set has {closed}: {reason}"));
+            let count = if rings == 1 {
+                "1 ring".to_owned()
+            } else {
+                format!("{rings} rings")
+            };
+            notes.push(format!("{count}, the smallest closed set has {closed}: {reason}"));
         }
         if let Some(lambda) = spectrum.subdominant() {
             // equal to the subdominant one, in any block
