@@ -8,9 +8,9 @@
 //! * **regular** ([`regular`]): the Jacobian has one sign,
 //! * **injective** ([`winding`]): the outer boundary winds once round the origin,
 //! * the **corner angle** of the natural configuration ([`corner`]),
-//! * the **Gauss curvature** of second-order maps ([`gauss`]).
+//! * the **Gauss curvature** of second-order maps (`gauss`).
 //!
-//! Everything is generic over the scalar: [`Interval`](crate::Interval) for one scheme, [`Centred`](crate::Centred) for all
+//! Everything is generic over the scalar: [`Interval`] for one scheme, [`Centred`](crate::Centred) for all
 //! schemes of a parameter range at once. [`find`] searches evidence (how far to subdivide, where a map folds); the checks
 //! take it as a claim and share nothing with the search. A wrong claim makes a check undecided, never wrong.
 //!

@@ -1,15 +1,15 @@
 //! Enclosures of the whole spectrum of a scheme, and of the vectors that belong to it.
 //!
 //! The matrix whose eigenvalues decide is the local matrix on all rings that determine the patches of the regular
-//! [`Annulus`](eigenring_spectral::Annulus), not the smallest closed one: outer rings have eigenvalues of their own, and one that equals
+//! [`Annulus`], not the smallest closed one: outer rings have eigenvalues of their own, and one that equals
 //! lambda makes it defective. It is taken apart before anything is enclosed:
 //!
 //! 1. into Fourier [`Block`]s, real where the rules have mirror symmetry; block N-k is the conjugate of block k;
 //! 2. block 0 is divided by the constant vector, whose eigenvalue 1 is exact where rows sum to 1 exactly;
 //! 3. each block into the strongly connected components of its graph, with entries that are **exactly** zero as missing
-//!    edges: its eigenvalues are those of the diagonal parts ([`graph`]);
+//!    edges: its eigenvalues are those of the diagonal parts (`graph`);
 //! 4. each component by dividing out simple real eigenpairs one after the other, with closed forms for the last two and a
-//!    bound of the moduli where pairs cannot be told apart ([`component`]).
+//!    bound of the moduli where pairs cannot be told apart (`component`).
 //!
 //! Every eigenvalue is accounted for: by an enclosure, or as one of so many below a radius.
 

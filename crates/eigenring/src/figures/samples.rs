@@ -200,7 +200,7 @@ fn shown_error(error: f64) -> f64 {
 /// Interpolated samples are met to rounding of the fit.
 const INTERPOLATED: f64 = 1e-12;
 
-/// The powers of ten around the values, without what is rounding: at most [`DECADES`] below the largest.
+/// The powers of ten around the values, without what is below [`LEAST`] of the largest.
 fn shown_decades(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
     let (low, high) = decades_of(values).unwrap_or((1e-3, 1.0));
     (low.max(high * LEAST), high)
