@@ -50,11 +50,11 @@ fn refinement_converges_to_the_limit_stencils() {
     for valence in [3, 4, 5, 6, 9, 12] {
         for scheme in schemes(valence) {
             let rings = scheme.closed_rings().unwrap() + 1;
-            let system = LocalSystem::new(&scheme.limit, rings).unwrap();
+            let system = LocalSystem::new(scheme.limit(), rings).unwrap();
             let spectrum = system.spectrum().unwrap();
             let lambda = spectrum.subdominant().unwrap().value.0;
             let mu = spectrum.subsubdominant().unwrap().modulus();
-            let label = format!("{}, N = {valence}, lambda = {lambda}, mu = {mu}", scheme.name);
+            let label = format!("{}, N = {valence}, lambda = {lambda}, mu = {mu}", scheme.name());
 
             let mut random = Random(valence as u64);
             let numbering = system.numbering();
@@ -95,7 +95,7 @@ fn refinement_converges_to_the_limit_stencils() {
                 // 40: eigenvectors are not orthogonal, and defective eigenvalues below mu add powers of m. Measured: below 32.
                 let bound = 40.0 * first_remainder * mu.powi(m) + 1e-13;
                 assert!(remainder <= bound, "{label}, m = {m}: {remainder} is more than {bound}");
-                net.points = refine(&scheme.limit, &net, &sites).unwrap();
+                net.points = refine(scheme.limit(), &net, &sites).unwrap();
             }
             for point in &net.points {
                 for d in 0..3 {

@@ -16,7 +16,7 @@ const PRINTED: f64 = 5e-5 + 1e-12;
 fn spectrum_lambda(valence: usize) -> f64 {
     let scheme = catmull_clark::<f64>(valence).unwrap();
     let rings = scheme.closed_rings().unwrap();
-    let spectrum = LocalSystem::new(&scheme.limit, rings).unwrap().spectrum().unwrap();
+    let spectrum = LocalSystem::new(scheme.limit(), rings).unwrap().spectrum().unwrap();
     let subdominant = spectrum.subdominant().unwrap();
     assert_eq!((subdominant.fourier, subdominant.multiplicity), (Some(1), 2));
     subdominant.value.0

@@ -135,8 +135,8 @@ fn an_unknown_family_has_no_expectation() {
 
 /// The first refinement and the limit level.
 fn levels(scheme: &Scheme<f64>) -> impl Iterator<Item = (&'static str, &Level<f64>)> {
-    let first = scheme.leading.first().map(|level| ("first level", level));
-    first.into_iter().chain([("limit level", &scheme.limit)])
+    let first = scheme.leading().first().map(|level| ("first level", level));
+    first.into_iter().chain([("limit level", scheme.limit())])
 }
 
 #[test]
@@ -152,7 +152,7 @@ fn nets_are_as_claimed_and_rows_are_affine() {
         );
         // fewer rings have no square matrix
         if rings > 1 - scheme.lattice().parity() as usize {
-            assert!(local_matrix(&scheme.limit, rings - 1).is_err(), "{label}");
+            assert!(local_matrix(scheme.limit(), rings - 1).is_err(), "{label}");
         }
         for (which, level) in levels(&scheme) {
             let matrix = local_matrix(level, rings + 1).unwrap();
@@ -223,11 +223,8 @@ fn the_blocks_hold_the_spectrum_of_the_dense_matrix() {
                 });
                 traces.check(format!("{label}, power {}", power + 1), sum.sum(), trace);
             }
-            // the same rules without the claim of mirror symmetry give the block in the values themselves
-            let plain = Level {
-                mirror: false,
-                ..level.clone()
-            };
+            // the same rules without the use of mirror symmetry give the block in the values themselves
+            let plain = level.clone().with_at_most(Symmetry::Rotation);
             for k in 0..n {
                 let block = fourier_block(&plain, rings, k).unwrap().to_complex();
                 let transform = transform(&matrix, numbering(level, rings), k);

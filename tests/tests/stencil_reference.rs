@@ -46,7 +46,7 @@ fn one_ring_spectra() {
         let n = case.valence;
         let stencil = Plane::new(n, case.lambda, case.s).unwrap().stencil(case.f2, case.f3);
         let scheme = stencil.weights.scheme("reference case", n).unwrap();
-        let spectrum = LocalSystem::new(&scheme.limit, 1).unwrap().spectrum().unwrap();
+        let spectrum = LocalSystem::new(scheme.limit(), 1).unwrap().spectrum().unwrap();
         let ours = by_block(&spectrum, n);
         assert_eq!(ours.len(), case.one_ring_spectrum.len());
         for k in 0..=n / 2 {

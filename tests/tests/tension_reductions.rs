@@ -14,8 +14,8 @@ fn order_four_without_tension_is_catmull_clark() {
         let reference = catmull_clark::<f64>(n).unwrap();
         for spec in ["tension:order=4", "stam:order=4", "morin:u0=1"] {
             let scheme = spec.parse::<Spec>().unwrap().scheme::<f64>(n).unwrap();
-            assert!(scheme.leading.is_empty(), "{spec}");
-            let [ours, theirs] = [&scheme, &reference].map(|scheme| local_matrix(&scheme.limit, 2).unwrap());
+            assert!(scheme.leading().is_empty(), "{spec}");
+            let [ours, theirs] = [&scheme, &reference].map(|scheme| local_matrix(scheme.limit(), 2).unwrap());
             for (index, (a, b)) in ours.entries().iter().zip(theirs.entries()).enumerate() {
                 entries.check(format!("{spec}, N = {n}, entry {index}"), *a, *b);
             }
@@ -29,7 +29,7 @@ fn order_three_without_tension_is_doo_sabin_on_regular_faces_only() {
     let mut weights = Comparison::new("face weights", 1e-15);
     for n in 3..=20 {
         let uniform = "doo-sabin:uniform".parse::<Spec>().unwrap().scheme::<f64>(n).unwrap();
-        let matrix = local_matrix(&uniform.limit, 0).unwrap();
+        let matrix = local_matrix(uniform.limit(), 0).unwrap();
         let original = local_matrix(&doo_sabin::<f64>(n).unwrap().limit, 0).unwrap();
         for j in 0..n {
             let part = match j {
@@ -71,7 +71,7 @@ fn regular_nets_without_tension_are_uniform_b_splines() {
     for order in 3..=22 {
         let scheme = tension::<f64>(4, order, 1.0).unwrap();
         let rings = scheme.closed_rings().unwrap();
-        let matrix = local_matrix(&scheme.limit, rings).unwrap();
+        let matrix = local_matrix(scheme.limit(), rings).unwrap();
         let places: Vec<(i32, i32)> = scheme.numbering(rings).sites().into_iter().map(in_the_plane).collect();
         let k = order as i32;
         // refined X at X/2 between control points at integers (even orders) or half integers, all in half steps

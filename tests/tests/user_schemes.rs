@@ -16,17 +16,17 @@ fn compare(text: &str, valences: &[usize], built_in: impl Fn(usize) -> Result<Sc
         let (ours, theirs) = (user.scheme::<f64>(n).unwrap(), built_in(n).unwrap());
         assert_eq!(ours.degree, theirs.degree);
         assert_eq!(ours.lattice(), theirs.lattice());
-        assert!(ours.limit.symmetric && ours.limit.mirror);
+        assert!(ours.limit().is_rotation_symmetric() && ours.limit().has_mirror());
         assert_eq!(ours.closed_rings(), theirs.closed_rings());
         let rings = theirs.closed_rings().unwrap();
         for rings in [rings, rings + 1] {
-            let [a, b] = [&ours, &theirs].map(|scheme| local_matrix(&scheme.limit, rings).unwrap());
+            let [a, b] = [&ours, &theirs].map(|scheme| local_matrix(scheme.limit(), rings).unwrap());
             for (i, (&a, &b)) in a.entries().iter().zip(b.entries()).enumerate() {
                 matrices.check(format!("{}, N = {n}, {rings} rings, entry {i}", user.name()), a, b);
             }
         }
         let [ours, theirs] = [&ours, &theirs].map(|scheme| {
-            let spectrum = LocalSystem::new(&scheme.limit, rings).unwrap().spectrum().unwrap();
+            let spectrum = LocalSystem::new(scheme.limit(), rings).unwrap().spectrum().unwrap();
             let mut values = by_block(&spectrum, n);
             values.sort_by(|a, b| a.1.cmp(&b.1).then(b.0.0.total_cmp(&a.0.0)));
             values

@@ -11,15 +11,17 @@
 //! changes the scheme has the certificate of another scheme, which says so.
 
 use crate::conditions::{self, Facts, Subdominant};
+use crate::levels::levels;
 use crate::map::{self, CurvatureEvidence, Heights, JacobianEvidence, PlaneNet, Sign, WindingEvidence};
 use crate::rows;
 use crate::spectral::{self, Block, Spectrum};
-use crate::{Check, Error, Input, Interval, Status, Subject, Witness, find};
+use crate::{Check, Error, Input, Interval, Statement, Status, Subject, Witness, find};
+use eigenring_scheme::Lattice;
 use eigenring_spectral::Annulus;
 use serde::{Deserialize, Serialize};
 
 /// The format that this version reads and writes.
-pub const CERTIFICATE_VERSION: u32 = 1;
+pub const CERTIFICATE_VERSION: u32 = 2;
 
 /// What is known of a scheme at a valence, and why.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -33,12 +35,27 @@ pub struct Certificate {
     pub input: Input,
     /// The valence.
     pub valence: usize,
+    /// The degree of the B-splines that the regular rules were found to refine.
+    pub degree: Option<usize>,
+    /// How the weights of a file were balanced; absent where nothing was to be balanced.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub balanced: Option<Balanced>,
     /// What was found.
     pub evidence: Evidence,
     /// What is claimed.
     pub checks: Vec<Check>,
     /// FNV-1a hash of everything else.
     pub digest: String,
+}
+
+/// Rounded weights that were [balanced](eigenring_scheme::user::Reading).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Balanced {
+    /// How many stencils were changed.
+    pub rows: usize,
+    /// The largest change of a weight.
+    pub largest: f64,
 }
 
 /// What a search found. None of it is believed.
@@ -61,24 +78,25 @@ pub struct Evidence {
 /// Those of the input; an open question is no error.
 pub fn certify(input: Input, valence: usize) -> Result<Certificate, Error> {
     let subject = input.subject(valence)?;
-    let (annulus, blocks) = spectral::problem(&subject.scheme)?;
-    let mut evidence = Evidence {
-        spectrum: find::evidence(&blocks),
-        ..Evidence::default()
-    };
-    let proof = Proof::new(&subject, annulus, blocks, &evidence.spectrum)?;
-    if let Some(net) = &proof.net {
-        let limits = map::find::Limits::default();
-        evidence.jacobian = Some(map::find::jacobian(net, limits));
-        evidence.winding = Some(map::find::boundary(net, limits));
-        for (heights, sign) in &proof.heights {
-            evidence
-                .curvature
-                .push(map::find::curvature(net, heights, *sign, limits));
+    let mut evidence = Evidence::default();
+    let checks = match patches(&subject)? {
+        Err(checks) => checks,
+        Ok((annulus, blocks)) => {
+            evidence.spectrum = find::evidence(&blocks);
+            let proof = Proof::new(&subject, annulus, blocks, &evidence.spectrum)?;
+            if let Some(net) = &proof.net {
+                let limits = map::find::Limits::default();
+                evidence.jacobian = Some(map::find::jacobian(net, limits));
+                evidence.winding = Some(map::find::boundary(net, limits));
+                for (heights, sign) in &proof.heights {
+                    let found = map::find::curvature(net, heights, *sign, limits);
+                    evidence.curvature.push(found);
+                }
+            }
+            proof.finish(&evidence)
         }
-    }
-    let checks = proof.finish(&evidence);
-    Ok(Certificate::new(input, valence, evidence, checks))
+    };
+    Ok(Certificate::new(input, &subject, evidence, checks))
 }
 
 /// Runs the checks alone.
@@ -86,9 +104,41 @@ pub fn certify(input: Input, valence: usize) -> Result<Certificate, Error> {
 /// # Errors
 /// Those of the input.
 pub fn check(input: &Input, valence: usize, evidence: &Evidence) -> Result<Vec<Check>, Error> {
-    let subject = input.subject(valence)?;
-    let (annulus, blocks) = spectral::problem(&subject.scheme)?;
-    Ok(Proof::new(&subject, annulus, blocks, &evidence.spectrum)?.finish(evidence))
+    check_subject(&input.subject(valence)?, evidence)
+}
+
+fn check_subject(subject: &Subject, evidence: &Evidence) -> Result<Vec<Check>, Error> {
+    match patches(subject)? {
+        Err(checks) => Ok(checks),
+        Ok((annulus, blocks)) => Ok(Proof::new(subject, annulus, blocks, &evidence.spectrum)?.finish(evidence)),
+    }
+}
+
+/// The patches and the blocks of the matrix that determines them; or, where the regular rules are those of no B-spline, all that
+/// can be said without patches.
+type Patches = Result<(Annulus, Vec<Block>), Vec<Check>>;
+
+fn patches(subject: &Subject) -> Result<Patches, Error> {
+    if subject.scheme.degree().is_some() {
+        return Ok(Ok(spectral::problem(&subject.scheme)?));
+    }
+    let mask = subject.scheme.regular_mask().map(|mask| {
+        let weights: Vec<String> = mask.values().map(|weight| format!("{}", weight.mid())).collect();
+        format!(" ({})", weights.join(", "))
+    });
+    let reason = format!(
+        "the lines of all passes together{} are no uniform B-spline's mask, so that the regular surface is not known",
+        mask.unwrap_or_default()
+    );
+    let mut checks = vec![rows::row_sums(subject)?, rows::hull(subject)?];
+    let others = Statement::ALL.into_iter().filter(|statement| match statement {
+        Statement::RowSums | Statement::Hull => false,
+        Statement::Levels => !subject.scheme.leading().is_empty(),
+        Statement::Corner => subject.scheme.lattice() == Lattice::Vertex,
+        _ => true,
+    });
+    checks.extend(others.map(|statement| Check::undecided(statement, reason.clone())));
+    Ok(Err(checks))
 }
 
 /// The checks, up to the point where the characteristic map is known.
@@ -115,10 +165,11 @@ impl<'a> Proof<'a> {
         let dominant = conditions::dominant(&spectrum, affine);
         let (subdominant, lambda) = conditions::subdominant(subject, &spectrum, &mut facts);
         let mut checks = vec![row_sums, hull, dominant, subdominant];
+        checks.extend(levels(subject, lambda.map(|lambda| lambda.value)));
         let (mut net, mut heights) = (None, Vec::new());
         match &lambda {
             None => {
-                for name in ["bounded_curvature", "non_degenerate", "strict"] {
+                for name in [Statement::BoundedCurvature, Statement::NonDegenerate, Statement::Strict] {
                     checks.push(Check::undecided(name, "no subdominant eigenvalue was proven"));
                 }
             }
@@ -144,26 +195,31 @@ impl<'a> Proof<'a> {
         if self.subject.floating {
             self.checks = self.checks.into_iter().map(Check::of_rounded_numbers).collect();
         }
-        let place = |check: &Check| crate::NAMES.iter().position(|name| *name == check.name);
-        self.checks.sort_by_key(place);
+        self.checks.sort_by_key(|check| check.name);
         self.checks
     }
 
     fn map_checks(&self, evidence: &Evidence) -> Vec<Check> {
         let Some(net) = &self.net else {
-            let reason = match self.lambda {
-                None => "no subdominant eigenvalue was proven",
-                Some(_) => "the characteristic map could not be enclosed",
+            let reason = match (&self.lambda, self.subject.scheme.degree()) {
+                (None, _) => "no subdominant eigenvalue was proven",
+                (Some(_), Some(1)) => "patches of degree 1 have kinks between them: the regular surface is not C1",
+                (Some(_), _) => "the characteristic map could not be enclosed",
             };
-            return ["regular", "injective", "corner", "gauss"]
-                .map(|name| Check::undecided(name, reason))
-                .into();
+            return [
+                Statement::Regular,
+                Statement::Injective,
+                Statement::Corner,
+                Statement::Gauss,
+            ]
+            .map(|name| Check::undecided(name, reason))
+            .into();
         };
         let (regular, injective) = (regular(net, evidence), injective(net, evidence));
         // the winding number decides for regular maps
         let injective = if injective.status == Status::Proven && regular.status != Status::Proven {
             Check::undecided(
-                "injective",
+                Statement::Injective,
                 "the boundary winds once, but the map is not proven regular",
             )
         } else {
@@ -176,7 +232,7 @@ impl<'a> Proof<'a> {
     }
 
     fn gauss(&self, net: &PlaneNet<Interval>, evidence: &Evidence) -> Check {
-        const NAME: &str = "gauss";
+        const NAME: Statement = Statement::Gauss;
         if self.heights.len() != evidence.curvature.len() || self.heights.is_empty() {
             return Check::undecided(NAME, "the second-order maps could not be enclosed");
         }
@@ -289,7 +345,7 @@ fn located(witness: Witness, prefix: &str, place: map::Place) -> Witness {
 }
 
 fn regular(net: &PlaneNet<Interval>, evidence: &Evidence) -> Check {
-    const NAME: &str = "regular";
+    const NAME: Statement = Statement::Regular;
     let Some(claim) = &evidence.jacobian else {
         return Check::undecided(NAME, "no evidence");
     };
@@ -314,7 +370,7 @@ fn regular(net: &PlaneNet<Interval>, evidence: &Evidence) -> Check {
 }
 
 fn injective(net: &PlaneNet<Interval>, evidence: &Evidence) -> Check {
-    const NAME: &str = "injective";
+    const NAME: Statement = Statement::Injective;
     let Some(claim) = &evidence.winding else {
         return Check::undecided(NAME, "no evidence");
     };
@@ -330,7 +386,7 @@ fn injective(net: &PlaneNet<Interval>, evidence: &Evidence) -> Check {
 }
 
 fn corner(net: &PlaneNet<Interval>) -> Option<Check> {
-    const NAME: &str = "corner";
+    const NAME: Statement = Statement::Corner;
     let found = map::corner(net)?;
     let check = match found.within {
         Status::Proven => Check::proven(NAME).margin((found.bound - found.theta).lo()),
@@ -347,12 +403,18 @@ fn corner(net: &PlaneNet<Interval>) -> Option<Check> {
 }
 
 impl Certificate {
-    fn new(input: Input, valence: usize, evidence: Evidence, checks: Vec<Check>) -> Self {
+    fn new(input: Input, subject: &Subject, evidence: Evidence, checks: Vec<Check>) -> Self {
+        let balance = subject.balance;
         let mut certificate = Certificate {
             version: CERTIFICATE_VERSION,
             tool: format!("eigenring {}", env!("CARGO_PKG_VERSION")),
             input,
-            valence,
+            valence: subject.scheme.valence(),
+            degree: subject.scheme.degree(),
+            balanced: (balance.rows > 0).then_some(Balanced {
+                rows: balance.rows,
+                largest: balance.largest,
+            }),
             evidence,
             checks,
             digest: String::new(),
@@ -386,9 +448,9 @@ impl Certificate {
         from_json(text, CERTIFICATE_VERSION)
     }
 
-    /// The check of a name.
-    pub fn check(&self, name: &str) -> Option<&Check> {
-        self.checks.iter().find(|check| check.name == name)
+    /// What is claimed of a statement.
+    pub fn check(&self, statement: Statement) -> Option<&Check> {
+        self.checks.iter().find(|check| check.name == statement)
     }
 }
 
@@ -420,6 +482,12 @@ pub(crate) fn from_json<T: for<'de> Deserialize<'de>>(text: &str, accepted: u32)
     serde_json::from_str(text).map_err(syntax)
 }
 
+/// Whether a text is what is written for a certificate: indented, or on one line.
+pub(crate) fn is_written(certificate: &impl Serialize, text: &str) -> Result<bool, Error> {
+    let line = serde_json::to_string(certificate).map_err(syntax)?;
+    Ok(text.strip_suffix('\n') == Some(line.as_str()) || to_json(certificate)? == text)
+}
+
 fn syntax(error: serde_json::Error) -> Error {
     Error::Syntax {
         line: error.line(),
@@ -435,21 +503,32 @@ pub struct Recheck {
     pub intact: bool,
     /// What the checks say now.
     pub checks: Vec<Check>,
-    /// Claims that the checks do not confirm: what is claimed, what was found, by name.
+    /// Claims that the checks do not confirm, and other things in which the certificate is not what they would make.
     pub differences: Vec<Difference>,
 }
 
-/// A claim that was not confirmed.
+/// Something that was not confirmed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Difference {
-    /// The check.
+    /// What it is about: a statement, or `degree`, `balanced`, `checks`, `text`.
     pub name: String,
-    /// What the certificate says.
+    /// What the certificate says, if it is about a statement.
     pub claimed: Option<Status>,
     /// What the checks say.
     pub found: Option<Status>,
     /// What differs: the status, or a number or sentence beside it.
     pub what: String,
+}
+
+impl Difference {
+    fn about(name: &str, what: impl Into<String>) -> Self {
+        Difference {
+            name: name.to_owned(),
+            claimed: None,
+            found: None,
+            what: what.into(),
+        }
+    }
 }
 
 impl Recheck {
@@ -459,16 +538,32 @@ impl Recheck {
     }
 }
 
+/// Checks the text of a stored certificate again: its scheme and its evidence, with the checks alone. The text must be exactly what
+/// is written for the certificate that it holds, so that nothing is in it that was not looked at.
+///
+/// # Errors
+/// Those of reading it, and of the input.
+pub fn recheck_text(text: &str) -> Result<(Certificate, Recheck), Error> {
+    let certificate = Certificate::from_json(text)?;
+    let mut found = recheck(&certificate)?;
+    if !is_written(&certificate, text)? {
+        let what = "the text is not what is written for the certificate that it holds";
+        found.differences.push(Difference::about("text", what));
+    }
+    Ok((certificate, found))
+}
+
 /// Checks a certificate again: its scheme and its evidence, with the checks alone.
 ///
 /// # Errors
 /// Those of the input.
 pub fn recheck(certificate: &Certificate) -> Result<Recheck, Error> {
-    let checks = check(&certificate.input, certificate.valence, &certificate.evidence)?;
-    let named = |list: &[Check], name: &str| list.iter().find(|check| check.name == name).cloned();
+    let subject = certificate.input.subject(certificate.valence)?;
+    let checks = check_subject(&subject, &certificate.evidence)?;
+    let named = |list: &[Check], statement: Statement| list.iter().find(|check| check.name == statement).cloned();
     let mut differences = Vec::new();
-    for name in crate::NAMES {
-        let (claimed, found) = (named(&certificate.checks, name), named(&checks, name));
+    for statement in Statement::ALL {
+        let (claimed, found) = (named(&certificate.checks, statement), named(&checks, statement));
         if claimed == found {
             continue;
         }
@@ -479,22 +574,23 @@ pub fn recheck(certificate: &Certificate) -> Result<Recheck, Error> {
             "status"
         };
         differences.push(Difference {
-            name: name.to_owned(),
+            name: statement.name().to_owned(),
             claimed: status(&claimed),
             found: status(&found),
             what: what.to_owned(),
         });
     }
-    let unknown = certificate
-        .checks
-        .iter()
-        .filter(|check| !crate::NAMES.contains(&check.name.as_str()));
-    differences.extend(unknown.map(|check| Difference {
-        name: check.name.clone(),
-        claimed: Some(check.status),
-        found: None,
-        what: "no such check".to_owned(),
-    }));
+    if differences.is_empty() && certificate.checks != checks {
+        let what = "a statement occurs twice, or they are in another order";
+        differences.push(Difference::about("checks", what));
+    }
+    let made = Certificate::new(certificate.input.clone(), &subject, Evidence::default(), Vec::new());
+    if certificate.degree != made.degree {
+        differences.push(Difference::about("degree", "not that of the rules"));
+    }
+    if certificate.balanced != made.balanced {
+        differences.push(Difference::about("balanced", "not what is balanced"));
+    }
     Ok(Recheck {
         intact: certificate.digest == certificate.content_digest(),
         checks,

@@ -11,12 +11,28 @@
 //! | `strict` | all eigenvalues after these three are smaller in modulus | Ma, Wang and Ma 2023, Eq. 26 |
 //!
 //! At N = 3 index 2 is index N-1, and the second value of block 1 takes its part; at N = 4 both saddles are in block 2.
-//! Inequalities are decided by enclosures, equalities exactly ([`Facts`]).
+//! Inequalities are decided by enclosures, equalities exactly ([`Facts`]). Where a Jordan block could decide, an enclosure that
+//! does not exceed another one proves nothing: the value is strictly below, or it is exactly the same and known to be
+//! semisimple.
+//!
+//! **What refutes.** These statements are sufficient for C1; one that does not hold is *undecided* unless a theorem says that the
+//! surface is not C1, or its curvature not bounded, with an eigenvector that the surface is proven to see
+//! ([`Spectrum::sees`](crate::spectral::Spectrum::sees)) as its witness:
+//!
+//! * `dominant`: an eigenvalue other than the constant vector's has a modulus of 1 or more. Data with a part in its eigenvector,
+//!   which almost all have, do not converge to a point at the centre (Peters and Reif 2008, section 4.2).
+//! * `subdominant`: a real positive eigenvalue of Fourier index 2 to (N-1)/2, simple in its block, leads all others: its
+//!   characteristic map winds so many times round the centre (Peters and Reif 2008, section 5.3); or a negative one of index 1, simple and
+//!   alone in modulus, in rules with mirror symmetry: the image of a spoke lies on the mirror and leads from one side of the
+//!   centre to the other within the annulus, so that the map is not injective (*ibid.*).
+//! * `bounded_curvature`: a real eigenvalue exceeds lambda^2 in modulus. Over the tangent plane its part of the surface grows by its
+//!   ratio to lambda^2 a level; its second derivatives do not all vanish, since a function that is linear on the rings scales with 1 or
+//!   lambda (Peters and Reif 2008, section 7).
 
 use crate::exact::{self, Field, Poly, block_polynomial};
 use crate::linear::Eigenvalue;
-use crate::spectral::{Entry, Place, Spectrum};
-use crate::{Check, Interval, Subject, Witness};
+use crate::spectral::{Entry, Spectrum};
+use crate::{Check, Interval, Statement, Subject, Witness};
 use std::collections::BTreeMap;
 
 /// The subdominant eigenvalue.
@@ -30,7 +46,7 @@ pub struct Subdominant {
 
 /// `dominant`; `affine` says whether 1 is known to be an eigenvalue with the constant vector.
 pub fn dominant(spectrum: &Spectrum, affine: bool) -> Check {
-    const NAME: &str = "dominant";
+    const NAME: Statement = Statement::Dominant;
     if !affine {
         return Check::undecided(NAME, "rows are not known to sum to 1");
     }
@@ -38,7 +54,7 @@ pub fn dominant(spectrum: &Spectrum, affine: bool) -> Check {
     let outside = spectrum
         .entries
         .iter()
-        .find(|entry| one.certainly_le(entry.value.modulus()));
+        .find(|entry| one.certainly_le(entry.value.modulus()) && entry.value.is_real() && spectrum.sees(entry));
     if let Some(entry) = outside {
         let text = format!(
             "an eigenvalue of block {} has modulus {}",
@@ -67,12 +83,14 @@ fn named(witness: Witness, entry: &Entry) -> Witness {
 
 /// `subdominant`, and the eigenvalue if it was proven.
 pub fn subdominant(subject: &Subject, spectrum: &Spectrum, facts: &mut Facts) -> (Check, Option<Subdominant>) {
-    const NAME: &str = "subdominant";
+    const NAME: Statement = Statement::Subdominant;
     let open = |text: String| (Check::undecided(NAME, text), None);
     let refuted = |witness: Witness| (Check::refuted(NAME, witness), None);
-    match spectrum.block(1).map(|block| &block.place) {
-        Some(Place::Real(_)) => {}
-        Some(_) => return open("the rules have no mirror symmetry: real eigenvalues are not told from others".into()),
+    match spectrum.block(1).map(|block| block.is_real()) {
+        Some(true) => {}
+        Some(false) => {
+            return open("the rules have no mirror symmetry: real eigenvalues are not told from others".into());
+        }
         None => return open("the rules differ from sector to sector".into()),
     }
     let of_index_1 = |&(_, entry): &(usize, &Entry)| entry.index == 1;
@@ -115,7 +133,14 @@ pub fn subdominant(subject: &Subject, spectrum: &Spectrum, facts: &mut Facts) ->
             entry.index,
             entry.value.modulus().mid()
         );
-        return refuted(named(Witness::new(text), entry).with("fourier", Interval::point(entry.index as f64)));
+        let n = subject.scheme.valence();
+        // a pair of index k, simple and ahead of everything else, belongs to a map that winds k times round the centre
+        let pair =
+            (2..n.div_ceil(2)).contains(&entry.index) && entry.value.is_real() && entry.value.re.certainly_positive();
+        if pair && spectrum.leads(entry) && spectrum.sees(entry) {
+            return refuted(named(Witness::new(text), entry).with("fourier", Interval::point(entry.index as f64)));
+        }
+        return open(text);
     }
     let others = spectrum.largest_other(&[position]);
     let (other, index) = others.unwrap_or((Interval::point(0.0), 0));
@@ -135,29 +160,17 @@ pub fn subdominant(subject: &Subject, spectrum: &Spectrum, facts: &mut Facts) ->
     let leads_block = within.map(Interval::hi).fold(0.0, f64::max) < modulus.lo();
     if leads_block && leading.value.is_real() && value.certainly_negative() {
         let text = format!("the largest eigenvalue of block 1 is {}, not positive", value.mid());
-        return refuted(named(Witness::new(text), leading));
+        if spectrum.leads(leading) && spectrum.sees(leading) {
+            return refuted(named(Witness::new(text), leading));
+        }
+        return open(text);
     }
-    // whatever could be real and positive in block 1 is certainly smaller than a complex pair there
-    let real = entries()
-        .filter(of_index_1)
-        .filter(|(_, entry)| entry.value.im.contains_zero());
-    let reach_of_real = real
-        .map(|(_, entry)| entry.value.modulus().hi())
-        .chain(
-            spectrum
-                .bounds
-                .iter()
-                .filter(|bound| bound.index == 1)
-                .map(|bound| bound.radius),
-        )
-        .fold(0.0, f64::max);
-    if leading.value.im.certainly_nonzero() && reach_of_real < modulus.lo() {
-        let text = format!(
-            "the largest eigenvalues of block 1 are {} +- {} i",
+    if leading.value.im.certainly_nonzero() {
+        return open(format!(
+            "the largest eigenvalues of block 1 are {} +- {} i: the criterion is for real ones",
             leading.value.re.mid(),
             leading.value.im.mid().abs()
-        );
-        return refuted(named(Witness::new(text), leading));
+        ));
     }
     if !leading.value.is_real() || !value.certainly_positive() {
         return open(format!(
@@ -170,11 +183,10 @@ pub fn subdominant(subject: &Subject, spectrum: &Spectrum, facts: &mut Facts) ->
             .iter()
             .all(|bound| bound.index != 1 || bound.radius < value.lo());
         if index == 1 && enclosed && facts.repeated(spectrum, leading) == Some(true) {
-            let text = format!(
-                "{} is a repeated eigenvalue of block 1: outer rings share it",
+            return open(format!(
+                "{} is a repeated eigenvalue of block 1, which outer rings share: the criterion is for simple ones",
                 value.mid()
-            );
-            return refuted(named(Witness::new(text), leading));
+            ));
         }
         return open(format!(
             "block {index} has an eigenvalue of modulus up to {}, lambda is {value}",
@@ -209,7 +221,7 @@ impl<'a> Facts<'a> {
         let known = self
             .polynomials
             .entry((index, rings))
-            .or_insert_with(|| block_polynomial(field, &exact.limit, rings, index));
+            .or_insert_with(|| block_polynomial(field, exact.limit(), rings, index));
         Some((&*field, known.clone()?))
     }
 
@@ -262,23 +274,12 @@ impl<'a> Facts<'a> {
 
 /// Whether an eigenvalue is one of the smaller block on `rings` rings: that of a component inside them.
 fn within(spectrum: &Spectrum, entry: &Entry, rings: usize) -> bool {
-    let Some(block) = spectrum.block(entry.index) else {
-        return false;
-    };
-    if !block.is_real() {
-        return false;
-    }
-    let numbering = spectrum.annulus.numbering;
-    let sites: Vec<usize> = numbering.sector_sites(0).map(|site| site.ring()).collect();
-    // the unknown that was divided out is the centre, or the first point around a face
-    let skipped = sites.len() - block.matrix.rows();
-    let members = &block.components[entry.component];
-    members
-        .iter()
-        .all(|&unknown| sites.get(unknown + skipped).is_some_and(|&ring| ring <= rings))
+    let block = spectrum.block(entry.index).filter(|block| block.is_real());
+    block.is_some_and(|block| block.ring(entry.component) <= rings)
 }
 
-/// The eigenvalues that are exactly `lambda^2`: their positions among the entries, and the Fourier indices that have them.
+/// The eigenvalues that are exactly `lambda^2` and without Jordan block: their positions among the entries, and the Fourier
+/// indices that have them.
 struct Squares {
     positions: Vec<usize>,
     indices: Vec<usize>,
@@ -310,7 +311,17 @@ fn squares(subject: &Subject, spectrum: &Spectrum, lambda: &Subdominant, facts: 
         let bounded = spectrum
             .bounds
             .iter()
-            .all(|b| b.index != block.index || b.radius <= square.lo());
+            .all(|b| b.index != block.index || b.radius < square.lo());
+        // components that do not depend on each other share no Jordan block
+        let apart = |a: usize, b: usize| {
+            let (a, b) = (spectrum.entries[a].component, spectrum.entries[b].component);
+            a != b && !block.reads[a].contains(&b) && !block.reads[b].contains(&a)
+        };
+        let all_apart = || {
+            near.iter()
+                .enumerate()
+                .all(|(i, &a)| near[..i].iter().all(|&b| apart(a, b)))
+        };
         if near.is_empty() {
             if bounded {
                 found.without.push(block.index);
@@ -326,15 +337,25 @@ fn squares(subject: &Subject, spectrum: &Spectrum, lambda: &Subdominant, facts: 
             (Some(false), _) if bounded && near.iter().all(|&position| inner(position)) => {
                 found.without.push(block.index);
             }
-            (Some(true), 1) => {
+            // the only one that comes near is the one, and a simple eigenvalue of the block
+            (Some(true), 1) if bounded => {
                 found.positions.extend(near);
                 found.indices.push(block.index);
             }
-            // both saddles of valence 4 lie in block 2: without Jordan block if neither component reads the other
-            (Some(true), 2) if valence == 4 && block.index == 2 => {
-                let (a, b) = (spectrum.entries[near[0]].component, spectrum.entries[near[1]].component);
-                let apart = a != b && !block.reads[a].contains(&b) && !block.reads[b].contains(&a);
-                if apart && near.iter().all(|&p| inner(p)) && facts.square_is_double(block.index, lambda.value) {
+            // both saddles of valence 4 lie in block 2
+            (Some(true), 2) if valence == 4 && block.index == 2 && bounded && all_apart() => {
+                if near.iter().all(|&p| inner(p)) && facts.square_is_double(block.index, lambda.value) {
+                    found.positions.extend(near);
+                    found.indices.push(block.index);
+                }
+            }
+            // eigenvalues that are known as numbers
+            _ if bounded && square.is_point() && all_apart() => {
+                let equal = |&position: &usize| {
+                    let value = spectrum.entries[position].value;
+                    value.is_real() && value.re.is_point() && value.re == square
+                };
+                if near.iter().all(equal) {
                     found.positions.extend(near);
                     found.indices.push(block.index);
                 }
@@ -357,7 +378,7 @@ pub fn second_order(subject: &Subject, spectrum: &Spectrum, lambda: &Subdominant
 }
 
 fn bounded(spectrum: &Spectrum, lambda: &Subdominant, squares: &Squares) -> Check {
-    const NAME: &str = "bounded_curvature";
+    const NAME: Statement = Statement::BoundedCurvature;
     let square = lambda.value.square();
     let ratio = |entry: &Entry| entry.value.modulus() / square;
     let others = || {
@@ -365,8 +386,10 @@ fn bounded(spectrum: &Spectrum, lambda: &Subdominant, squares: &Squares) -> Chec
         all.filter(|(position, _)| *position != lambda.position)
             .map(|(_, entry)| entry)
     };
-    let largest = others().max_by(|a, b| a.value.modulus().lo().total_cmp(&b.value.modulus().lo()));
-    if let Some(entry) = largest.filter(|entry| square.certainly_lt(entry.value.modulus())) {
+    let larger = others().filter(|entry| square.certainly_lt(entry.value.modulus()) && entry.value.is_real());
+    let mut larger: Vec<&Entry> = larger.collect();
+    larger.sort_by(|a, b| b.value.modulus().lo().total_cmp(&a.value.modulus().lo()));
+    if let Some(entry) = larger.into_iter().find(|entry| spectrum.sees(entry)) {
         let text = format!(
             "an eigenvalue of block {} is {} lambda^2: mu = {}, lambda = {}",
             entry.index,
@@ -383,14 +406,12 @@ fn bounded(spectrum: &Spectrum, lambda: &Subdominant, squares: &Squares) -> Chec
     let Some((modulus, index)) = spectrum.largest_other(&except) else {
         return Check::undecided(NAME, "no further eigenvalues");
     };
-    if !modulus.certainly_le(square) {
-        return Check::undecided(
-            NAME,
-            format!(
-                "block {index} has an eigenvalue of modulus up to {}, lambda^2 is {square}",
-                modulus.hi()
-            ),
+    if !modulus.certainly_lt(square) {
+        let text = format!(
+            "block {index} has an eigenvalue of modulus up to {}, lambda^2 is {square}: where they are equal a Jordan block may decide",
+            modulus.hi()
         );
+        return Check::undecided(NAME, text);
     }
     let (enclosure, margin) = if squares.positions.is_empty() {
         let ratio = modulus / square;
@@ -407,7 +428,7 @@ fn second_order_indices(valence: usize) -> [usize; 2] {
 }
 
 fn non_degenerate(valence: usize, spectrum: &Spectrum, lambda: &Subdominant, squares: &Squares) -> Check {
-    const NAME: &str = "non_degenerate";
+    const NAME: Statement = Statement::NonDegenerate;
     let square = lambda.value.square();
     for index in second_order_indices(valence) {
         let others = spectrum.entries.iter().enumerate();
@@ -431,7 +452,7 @@ fn non_degenerate(valence: usize, spectrum: &Spectrum, lambda: &Subdominant, squ
         let bounded = spectrum
             .bounds
             .iter()
-            .all(|b| b.index != index || b.radius <= square.lo());
+            .all(|b| b.index != index || b.radius < square.lo());
         if candidates < wanted && bounded {
             let other = in_block.iter().find(|e| e.value.re.disjoint(square));
             let mu = other.map_or(Interval::point(0.0), |entry| entry.value.re);
@@ -455,7 +476,7 @@ fn non_degenerate(valence: usize, spectrum: &Spectrum, lambda: &Subdominant, squ
 }
 
 fn strict(subject: &Subject, spectrum: &Spectrum, lambda: &Subdominant, squares: &Squares) -> Check {
-    const NAME: &str = "strict";
+    const NAME: Statement = Statement::Strict;
     let valence = subject.scheme.valence();
     let sharp = |position: usize| -> Eigenvalue {
         let value = spectrum.entries[position].value;

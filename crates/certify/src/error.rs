@@ -26,6 +26,9 @@ pub enum Error {
         /// Largest accepted number.
         maximum: usize,
     },
+    /// The weight f2 of the edge neighbours in the face rule, by which others are divided.
+    #[error("f2 = 0: the closed forms divide by f2; accepted are other numbers")]
+    EdgeWeight,
     /// A range of lambda that is empty or leaves the tabulated domain.
     #[error("lambda range {start}..{end}: accepted are {lower} <= A < B <= {upper}")]
     Range {

@@ -3,8 +3,8 @@
 //! An enclosure of a difference that is zero contains both signs, however sharp it is. Equalities (stencils sum to 1,
 //! `mu = lambda^2`) are therefore decided in exact numbers, of the scheme as it was written down:
 //!
-//! * [`Weight`]: a stencil weight `a + b cos(2 pi k/n)` with rational a, b: what all rational schemes and the original
-//!   Doo-Sabin weights consist of. It is a [`Scalar`](eigenring_scheme::Scalar), so that the scheme's own rules produce it.
+//! * [`Exact`](eigenring_scheme::Exact): a stencil weight `a + b cos(2 pi k/n)` with rational a, b: what all rational schemes and
+//!   the original Doo-Sabin weights consist of.
 //! * [`Field`]: the cyclotomic field `Q(w)`, `w = exp(2 pi i/N)`, as polynomials in w modulo the cyclotomic polynomial. Fourier blocks of
 //!   such schemes have their entries there.
 //! * [`Poly`]: polynomials over the field, among them the characteristic polynomials of blocks.
@@ -14,18 +14,16 @@
 //! simple root of f in a known interval this is decided by intervals once more: of `d` and `f/d` exactly one vanishes there,
 //! and the other is bounded away from zero.
 //!
-//! Whatever does not fit (weights beyond 127 bits, blocks of more than [`MAX_SIZE`] unknowns) is "not decidable here",
+//! Whatever does not fit (weights without exact value, blocks of more than [`MAX_SIZE`] unknowns) is "not decidable here",
 //! never an error and never a guess.
 
 mod block;
 mod field;
 mod polynomial;
-mod weight;
 
 pub use block::{block_polynomial, row_sum_defect};
 pub use field::{Element, Field};
 pub use polynomial::Poly;
-pub use weight::Weight;
 
 use crate::Interval;
 

@@ -8,11 +8,11 @@
 //! [`Subject`] is an input at one valence, made ready for proofs: the rules with interval weights, the same with exact ones
 //! where these exist, and for the lambda-scheme the equalities that its closed forms give ([`Identities`]).
 
-use crate::exact::Weight;
 use crate::{Error, Interval};
+use eigenring_scheme::families::tension;
 use eigenring_scheme::lambda::{LambdaTable, Plane, Relaxation};
-use eigenring_scheme::user::UserScheme;
-use eigenring_scheme::{OneRing, Scalar, Scheme, Spec};
+use eigenring_scheme::user::{Balance, Reading, UserScheme};
+use eigenring_scheme::{Exact, Level, OneRing, Same, Scalar, Scheme, Spec, Taps};
 use serde::{Deserialize, Serialize};
 
 /// A scheme, exactly; see the module page.
@@ -41,6 +41,8 @@ pub enum Input {
         text: String,
         /// The name used if the text gives none.
         name: String,
+        /// How its weights are read.
+        reading: Reading,
     },
     /// One-ring weights that were computed in doubles.
     Floating {
@@ -90,10 +92,19 @@ impl Input {
                 Some(f3) => format!("lambda:lambda={lambda},f2={f2},f3={f3},s={s}"),
                 None => format!("lambda:lambda={lambda},f2={f2},f3=mu,s={s}"),
             },
-            Input::Toml { text, name } => {
-                UserScheme::parse(text, name).map_or_else(|_| name.clone(), |scheme| scheme.name().to_owned())
+            Input::Toml { text, name, reading } => {
+                let scheme = UserScheme::parse(text, name, *reading);
+                scheme.map_or_else(|_| name.clone(), |scheme| scheme.name().to_owned())
             }
             Input::Floating { .. } => "one-ring weights in doubles".to_owned(),
+        }
+    }
+
+    /// The scheme's name with where it came from: `file:` before the name of a file's scheme, which is no name of ours.
+    pub fn origin(&self) -> String {
+        match self {
+            Input::Toml { .. } => format!("file:{}", self.name()),
+            _ => self.name(),
         }
     }
 
@@ -105,26 +116,36 @@ impl Input {
         match self {
             Input::Family { spec } => {
                 let spec: Spec = spec.parse()?;
+                let exact = spec.exact(valence)?;
+                // enclosures of exact numbers, or, where levels have roots in them, of the formulas
+                let scheme = match &exact {
+                    Some(exact) if exact.leading().is_empty() => enclosed(exact),
+                    _ => spec.scheme(valence)?,
+                };
                 Ok(Subject {
-                    scheme: spec.scheme(valence)?,
-                    exact: Some(spec.scheme(valence)?),
+                    scheme,
+                    exact,
                     identities: None,
                     floating: false,
+                    tends_like_tension: spec.order_and_tension().is_some_and(|(_, u0)| u0 > -1.0),
+                    affine_levels: spec
+                        .order_and_tension()
+                        .is_some_and(|(order, _)| affine_levels(valence, order)),
+                    balance: Balance::default(),
                 })
             }
             &Input::Lambda { lambda, s, f2, f3 } => lambda_subject(valence, lambda, s, f2, f3),
-            Input::Toml { text, name } => {
-                let file = UserScheme::parse(text, name)?;
-                let (mut scheme, mut exact) = (file.scheme::<Interval>(valence)?, file.scheme::<Weight>(valence)?);
-                // the file's reader compares doubles; here the symmetry must hold exactly
-                let distance = |weight: Weight| f64::from(weight != Weight::zero());
-                let mirror = scheme.limit.mirror && exact.limit.is_mirror_symmetric(0.0, distance);
-                (scheme.limit.mirror, exact.limit.mirror) = (mirror, mirror);
+            Input::Toml { text, name, reading } => {
+                let file = UserScheme::parse(text, name, *reading)?;
+                let exact = file.exact(valence)?;
                 Ok(Subject {
-                    scheme,
-                    exact: Some(exact),
+                    scheme: enclosed(exact),
+                    exact: Some(exact.clone()),
                     identities: None,
                     floating: false,
+                    tends_like_tension: false,
+                    affine_levels: false,
+                    balance: file.balance(valence)?,
                 })
             }
             Input::Floating { weights } => {
@@ -151,6 +172,9 @@ impl Input {
                     exact: None,
                     identities: None,
                     floating: true,
+                    tends_like_tension: false,
+                    affine_levels: false,
+                    balance: Balance::default(),
                 })
             }
         }
@@ -163,11 +187,42 @@ pub struct Subject {
     /// The rules with enclosures of the weights.
     pub scheme: Scheme<Interval>,
     /// The rules with exact weights, where there are any.
-    pub exact: Option<Scheme<Weight>>,
+    pub exact: Option<Scheme<Exact>>,
     /// Equalities that hold by construction.
     pub identities: Option<Identities>,
     /// Whether the weights are results of rounding.
     pub floating: bool,
+    /// Whether the levels are those of the tension scheme with an initial tension above -1, which tend to the limit level.
+    pub tends_like_tension: bool,
+    /// Whether the rows of the leading levels sum to 1 whatever the tension is.
+    pub affine_levels: bool,
+    /// What was balanced in the weights of a file.
+    pub balance: Balance,
+}
+
+/// Whether the rows of the tension scheme sum to 1 for every tension. The weights of a pass, times `(1+u)^2`, are polynomials of
+/// degree 2 in u; a sum of such that is `(1+u)^2` at three values of u is so at all.
+fn affine_levels(valence: usize, order: usize) -> bool {
+    [0.0, 2.0, 3.0].into_iter().all(|u| {
+        let scheme = tension::<Exact>(valence, order, u);
+        scheme.is_ok_and(|scheme| passes_are_affine(scheme.level(0)))
+    })
+}
+
+/// Whether the weights of every point that a pass makes are known to sum to 1: then those of the whole level do.
+fn passes_are_affine(level: &Level<Exact>) -> bool {
+    let one = |sum: Exact| sum.same(&Exact::one());
+    level.passes().iter().all(|pass| {
+        let sum = |taps: &Taps<Exact>| taps.iter().fold(Exact::zero(), |sum, (_, weight)| sum + weight.clone());
+        let mut classes = pass.all_lines().flat_map(|line| line.classes());
+        let mut special = pass.special().values();
+        classes.all(|taps| one(sum(taps))) && special.all(|stencil| one(stencil.sum()))
+    })
+}
+
+/// The enclosures of exact weights; nothing is known of one without value. Symmetry and degree are those of the exact scheme.
+fn enclosed(exact: &Scheme<Exact>) -> Scheme<Interval> {
+    exact.map(|weight| weight.to().unwrap_or(Interval::ENTIRE))
 }
 
 /// Equalities of the lambda-scheme (Ma, Wang and Ma 2023), which its closed forms give at all parameters, whether
@@ -235,6 +290,9 @@ fn lambda_subject(valence: usize, lambda: f64, s: f64, f2: f64, f3: Option<f64>)
             square: s == 1.0,
         }),
         floating: false,
+        tends_like_tension: false,
+        affine_levels: false,
+        balance: Balance::default(),
     })
 }
 

@@ -1,6 +1,6 @@
 //! Certificates: interval proofs about the spectrum and the characteristic map of a subdivision scheme.
 //!
-//! [`certify`] takes an exact scheme ([`Input`]) at a valence and says of each of a list of statements ([`NAMES`]) whether it is
+//! [`certify`] takes an exact scheme ([`Input`]) at a valence and says of each of a list of statements ([`Statement`]) whether it is
 //! proven, refuted, open, or only computed. [`recheck`] proves a stored [`Certificate`] again; [`range`] does both for a
 //! continuous range of lambda.
 //!
@@ -15,6 +15,7 @@ pub mod exact;
 pub mod find;
 mod input;
 mod interval;
+mod levels;
 pub mod linear;
 pub mod map;
 mod mean_value;
@@ -23,9 +24,11 @@ mod rows;
 pub mod spectral;
 mod status;
 
-pub use certificate::{CERTIFICATE_VERSION, Certificate, Difference, Evidence, Recheck, certify, check, recheck};
+pub use certificate::{
+    Balanced, CERTIFICATE_VERSION, Certificate, Difference, Evidence, Recheck, certify, check, recheck, recheck_text,
+};
 pub use error::Error;
 pub use input::{Identities, Input, Subject};
 pub use interval::Interval;
 pub use mean_value::{Centred, Enclose};
-pub use status::{Check, NAMES, Requirement, Status, Witness};
+pub use status::{Check, Requirement, Statement, Status, Witness};

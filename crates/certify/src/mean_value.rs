@@ -17,7 +17,8 @@
 
 use crate::Interval;
 use crate::map::Coefficient;
-use eigenring_scheme::{Dual, Scalar};
+use eigenring_scheme::{Dual, Same, Scalar};
+use num_rational::BigRational;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A scalar of a proof: whatever it carries, it knows an interval that holds its value.
@@ -168,7 +169,19 @@ impl<const D: usize> SubAssign for Centred<D> {
     }
 }
 
+impl<const D: usize> Same for Centred<D> {
+    /// Two points that depend on no parameter and are equal.
+    fn same(&self, other: &Self) -> bool {
+        let constant = self.slopes.iter().chain(&other.slopes).all(|slope| slope.is_zero());
+        constant && self.range.same(&other.range)
+    }
+}
+
 impl<const D: usize> Scalar for Centred<D> {
+    fn rational(value: &BigRational) -> Self {
+        Self::constant(Interval::rational(value))
+    }
+
     fn ratio(p: i64, q: i64) -> Self {
         Self::constant(Interval::ratio(p, q))
     }
@@ -197,7 +210,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn formula<S: Scalar>(x: S, y: S) -> S {
+    fn formula<S: Scalar + Copy>(x: S, y: S) -> S {
         let mut sum = (x * x - x * y) / (y + S::ratio(1, 3)) + (x * y + S::one()).sqrt();
         sum -= x * S::cos_turn(1, 7) - x * x * x;
         sum

@@ -19,11 +19,12 @@ mod conditions;
 mod net;
 pub mod point;
 
-use crate::certificate::{digest, from_json, to_json};
+use crate::certificate::{digest, from_json, is_written, to_json};
 use crate::map::{self, JacobianEvidence, WindingEvidence};
-use crate::{Centred, Error, Interval, Requirement, Status, Witness};
+use crate::{Centred, Error, Interval, Requirement, Statement, Status, Witness};
 use eigenring_scheme::lambda::{LambdaKnots, LambdaTable, Relaxation};
 use eigenring_scheme::{Knots, Scalar};
+use point::Point;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -84,11 +85,11 @@ impl Group {
     pub const ALL: [Group; 3] = [Group::Subdominant, Group::SecondOrder, Group::Map];
 
     /// The statements.
-    pub fn checks(self) -> &'static [&'static str] {
+    pub fn statements(self) -> &'static [Statement] {
         match self {
-            Group::Subdominant => &["dominant", "subdominant"],
-            Group::SecondOrder => &["bounded_curvature", "strict"],
-            Group::Map => &["regular", "injective"],
+            Group::Subdominant => &[Statement::Dominant, Statement::Subdominant],
+            Group::SecondOrder => &[Statement::BoundedCurvature, Statement::Strict],
+            Group::Map => &[Statement::Regular, Statement::Injective],
         }
     }
 }
@@ -182,6 +183,9 @@ impl Problem {
                         return Err(Error::NotFinite { what, value });
                     }
                 }
+                if *f2 == 0.0 {
+                    return Err(Error::EdgeWeight);
+                }
                 None
             }
         };
@@ -205,7 +209,7 @@ impl Problem {
     }
 
     /// f2 and f3 on a tile; `None` if a knot lies inside it. f3 is `None` at valence 4.
-    fn weights<S: Scalar>(&self, [start, end]: [f64; 2], lambda: S) -> Option<(S, Option<S>)> {
+    fn weights<S: Scalar + Copy>(&self, [start, end]: [f64; 2], lambda: S) -> Option<(S, Option<S>)> {
         let (f2, f3) = match (&self.curve, &self.knots) {
             (Curve::Splines { f2, f3, .. }, Some(knots)) => {
                 let span = knots.span(start)?;
@@ -223,13 +227,15 @@ impl Problem {
 
     /// The statuses of a group on a tile. With `evidence` for the map, which is not looked at otherwise.
     fn decide(&self, group: Group, lambda: [f64; 2], evidence: &[(JacobianEvidence, WindingEvidence)]) -> Vec<Status> {
-        let undecided = vec![Status::Undecided; group.checks().len()];
+        let undecided = vec![Status::Undecided; group.statements().len()];
         let Some(points) = point::points(self, lambda) else {
             return undecided;
         };
         let mut found: Option<Vec<Status>> = None;
         for (position, point) in points.iter().enumerate() {
             let next = match group {
+                // a closed form that may divide by zero gives no scheme to speak of
+                _ if !point.is_bounded() => undecided.clone(),
                 Group::Subdominant => conditions::subdominant(point),
                 Group::SecondOrder => conditions::second_order(point),
                 Group::Map => match (net::characteristic(point), evidence.get(position)) {
@@ -364,54 +370,69 @@ impl RangeCertificate {
     }
 
     /// The maximal intervals on which a statement has one status; empty for a statement without tiles.
-    pub fn segments(&self, check: &str) -> Vec<Segment> {
-        if check == "row_sums" {
-            // by construction, at every lambda
-            return vec![Segment {
-                lambda: self.lambda,
-                status: Status::Proven,
-                witness: None,
-            }];
+    pub fn segments(&self, statement: Statement) -> Vec<Segment> {
+        if statement == Statement::RowSums {
+            return self.row_sums();
         }
         for (group, tiles) in &self.tiles {
-            if let Some(position) = group.checks().iter().position(|name| *name == check) {
+            if let Some(position) = group.statements().iter().position(|name| *name == statement) {
                 let pieces = tiles
                     .iter()
                     .filter_map(|tile| Some((tile.lambda, *tile.statuses.get(position)?)));
-                return self.merged(pieces, &[check]);
+                return self.merged(pieces, &[statement]);
             }
         }
         Vec::new()
     }
 
-    /// The maximal intervals on which all statements of a requirement have one status together: refuted where one is,
-    /// else undecided where one is.
+    /// Rows sum to 1 by construction, wherever the closed forms have a value.
+    fn row_sums(&self) -> Vec<Segment> {
+        let problem = Problem::new(self.valence, &self.curve, self.lambda).ok();
+        let tiles = self.tiles.get(&Group::Subdominant).map_or(&[][..], Vec::as_slice);
+        let pieces = tiles.iter().map(|tile| {
+            let points = problem.as_ref().and_then(|problem| point::points(problem, tile.lambda));
+            let bounded = points.is_some_and(|points| points.iter().all(Point::is_bounded));
+            let status = if bounded { Status::Proven } else { Status::Undecided };
+            (tile.lambda, status)
+        });
+        self.merged(pieces, &[Statement::RowSums])
+    }
+
+    /// The maximal intervals on which all statements of a requirement have one status together. What refutes a statement about the
+    /// pair of lambda refutes the requirement only where that pair is proven to be subdominant.
     pub fn required(&self, requirement: Requirement) -> Vec<Segment> {
-        let lists: Vec<Vec<Segment>> = requirement.checks().iter().map(|check| self.segments(check)).collect();
+        // the levels of the lambda-scheme are all alike
+        let statements = requirement
+            .statements()
+            .iter()
+            .filter(|statement| **statement != Statement::Levels);
+        let statements: Vec<Statement> = statements.copied().collect();
+        let lists: Vec<Vec<Segment>> = statements.iter().map(|&statement| self.segments(statement)).collect();
+        let subdominant = self.segments(Statement::Subdominant);
         let mut ends: Vec<f64> = lists.iter().flatten().flat_map(|segment| segment.lambda).collect();
         ends.sort_by(f64::total_cmp);
         ends.dedup();
+        let at = |list: &[Segment], lambda: [f64; 2]| {
+            let covering = list
+                .iter()
+                .find(|s| s.lambda[0] <= lambda[0] && lambda[1] <= s.lambda[1]);
+            covering.map_or(Status::Undecided, |s| s.status)
+        };
         let status = |lambda: [f64; 2]| {
-            let mut all = Status::Proven;
-            for list in &lists {
-                let covering = list
-                    .iter()
-                    .find(|s| s.lambda[0] <= lambda[0] && lambda[1] <= s.lambda[1]);
-                match covering.map_or(Status::Undecided, |s| s.status) {
-                    Status::Refuted => return Status::Refuted,
-                    Status::Proven => {}
-                    other => all = other,
-                }
-            }
-            all
+            let pair = at(&subdominant, lambda) == Status::Proven;
+            let statuses = lists.iter().map(|list| match at(list, lambda) {
+                Status::Refuted if !pair => Status::Undecided,
+                status => status,
+            });
+            statuses.fold(Status::Proven, Status::and)
         };
         let pieces = ends
             .windows(2)
             .map(|pair| ([pair[0], pair[1]], status([pair[0], pair[1]])));
-        self.merged(pieces, requirement.checks())
+        self.merged(pieces, &statements)
     }
 
-    fn merged(&self, pieces: impl Iterator<Item = ([f64; 2], Status)>, checks: &[&str]) -> Vec<Segment> {
+    fn merged(&self, pieces: impl Iterator<Item = ([f64; 2], Status)>, statements: &[Statement]) -> Vec<Segment> {
         let mut segments: Vec<Segment> = Vec::new();
         for (lambda, status) in pieces {
             match segments.last_mut() {
@@ -424,20 +445,20 @@ impl RangeCertificate {
             }
         }
         for segment in segments.iter_mut().filter(|segment| segment.status == Status::Refuted) {
-            segment.witness = self.witness(segment.lambda, checks);
+            segment.witness = self.witness(segment.lambda, statements);
         }
         segments
     }
 
     /// A lambda inside, with the statement that is refuted there.
-    fn witness(&self, [start, end]: [f64; 2], checks: &[&str]) -> Option<Witness> {
+    fn witness(&self, [start, end]: [f64; 2], statements: &[Statement]) -> Option<Witness> {
         let lambda = start + (end - start) / 2.0;
         let problem = Problem::new(self.valence, &self.curve, self.lambda).ok()?;
         let points = point::points(&problem, [lambda, lambda])?;
         let point = points.first()?;
-        let refuted = checks.iter().find(|&&check| {
+        let refuted = statements.iter().find(|&&statement| {
             Group::ALL.iter().any(|group| {
-                let position = group.checks().iter().position(|name| *name == check);
+                let position = group.statements().iter().position(|name| *name == statement);
                 let tiles = self.tiles.get(group).map_or(&[][..], Vec::as_slice);
                 let tile = tiles
                     .iter()
@@ -448,7 +469,8 @@ impl RangeCertificate {
                 status == Some(&Status::Refuted)
             })
         });
-        let text = format!("{} fails at lambda = {lambda}", refuted.unwrap_or(&"a statement"));
+        let what = refuted.map_or("a statement", |statement| statement.name());
+        let text = format!("{what} fails at lambda = {lambda}");
         let witness = Witness::new(text).with("lambda", Interval::point(lambda));
         Some(conditions::describe(point, witness))
     }
@@ -457,7 +479,7 @@ impl RangeCertificate {
 /// What checking a range certificate again has shown.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RangeRecheck {
-    /// Whether the digest is that of the content.
+    /// Whether the digest is that of the content, and the text what is written for it.
     pub intact: bool,
     /// Whether the tiles of every group cover the range without gaps.
     pub covered: bool,
@@ -470,6 +492,17 @@ impl RangeRecheck {
     pub fn confirmed(&self) -> bool {
         self.intact && self.covered && self.differences.is_empty()
     }
+}
+
+/// Checks the text of a stored certificate again; it must be exactly what is written for the certificate that it holds.
+///
+/// # Errors
+/// Those of reading it; of the curve; [`Error::Range`].
+pub fn recheck_range_text(text: &str) -> Result<(RangeCertificate, RangeRecheck), Error> {
+    let certificate = RangeCertificate::from_json(text)?;
+    let mut found = recheck_range(&certificate)?;
+    found.intact &= is_written(&certificate, text)?;
+    Ok((certificate, found))
 }
 
 /// Checks a certificate again, tile by tile, with the checks alone.

@@ -1,34 +1,70 @@
 //! Statements about weights: affine invariance and the convex hull property.
 //!
 //! Both are read off the rows of the refinement itself, whatever passes it is made of: a refined point is affinely invariant if
-//! the weights of control points in it sum to 1, and in the convex hull if they are not negative. Beyond the rings with
-//! special stencils every row is one of the four regular ones, so that a few more rings than those show all rows.
+//! the weights of control points in it sum to 1, and in the convex hull if they are not negative. Beyond the rings that
+//! special stencils reach every row is one of the regular ones, so that two rings more than those show all rows. Levels that
+//! differ are looked at one by one, the limit level last.
 
 use crate::exact::{Field, row_sum_defect};
-use crate::{Check, Error, Interval, Subject, Witness};
-use eigenring_scheme::{Error as SchemeError, Net, Scalar, Site, refine};
+use crate::{Check, Error, Interval, Statement, Subject, Witness};
+use eigenring_scheme::{Error as SchemeError, Exact, Lattice, Level, Net, Scalar, Site, refine};
 use std::collections::BTreeMap;
 
-/// Rings of which all rows are looked at: special ones, closed ones and two more for the regular rules.
-fn sites(subject: &Subject) -> Result<Vec<Site>, Error> {
-    let scheme = &subject.scheme;
-    let rings = scheme.special_rings()?.unwrap_or(0).max(scheme.closed_rings()?) + 2;
-    let numbering = scheme.numbering(rings);
-    if !scheme.limit.symmetric {
+/// Points of which all rows are looked at: those of special and closed rings, and two rings more for the regular rules.
+fn sites(level: &Level<Interval>) -> Result<Vec<Site>, Error> {
+    // the closed rings hold all special ones
+    let rings = level.closed_rings()? + 2;
+    let numbering = level.numbering(rings);
+    if !level.is_rotation_symmetric() {
         return Ok(numbering.sites());
     }
-    let centre = (numbering.lattice.parity() == 0).then_some(Site::CENTRE);
+    let centre = (numbering.lattice == Lattice::Vertex).then_some(Site::CENTRE);
     Ok(centre.into_iter().chain(numbering.sector_sites(0)).collect())
 }
 
-/// `row_sums`: all rows sum to 1.
+/// The levels of a scheme with their exact twins, and how a message refers to them.
+fn levels(subject: &Subject) -> impl Iterator<Item = (&Level<Interval>, Option<&Level<Exact>>, String)> {
+    let count = subject.scheme.leading().len();
+    (0..=count).map(move |index| {
+        let exact = subject.exact.as_ref().map(|exact| exact.level(index));
+        let place = if index < count {
+            format!(" of level {index}")
+        } else {
+            String::new()
+        };
+        (subject.scheme.level(index), exact, place)
+    })
+}
+
+/// `row_sums`: all rows of all levels sum to 1.
 ///
 /// # Errors
 /// Those of running the rules.
 pub fn row_sums(subject: &Subject) -> Result<Check, Error> {
-    const NAME: &str = "row_sums";
-    let sites = sites(subject)?;
-    let sums = refine(&subject.scheme.limit, &OneNet, &sites)?;
+    const NAME: Statement = Statement::RowSums;
+    let mut weakest: Option<Check> = None;
+    for (level, exact, place) in levels(subject) {
+        let check = row_sums_of(subject, level, exact, &place)?;
+        // of equally weak levels the limit level speaks for all
+        let weaker = weakest
+            .as_ref()
+            .is_none_or(|known| known.status.and(check.status) == check.status);
+        if weaker {
+            weakest = Some(check);
+        }
+    }
+    Ok(weakest.unwrap_or_else(|| Check::undecided(NAME, "no levels")))
+}
+
+fn row_sums_of(
+    subject: &Subject,
+    level: &Level<Interval>,
+    exact: Option<&Level<Exact>>,
+    place: &str,
+) -> Result<Check, Error> {
+    const NAME: Statement = Statement::RowSums;
+    let sites = sites(level)?;
+    let sums = refine(level, &OneNet, &sites)?;
     if !sums.iter().all(|sum| sum.is_bounded()) {
         return Ok(Check::undecided(
             NAME,
@@ -40,11 +76,16 @@ pub fn row_sums(subject: &Subject) -> Result<Check, Error> {
             .enclosing(Interval::point(0.0))
             .remark("f1 + 2 f2 + f3 = 1 and g1 + 2 g2 + g3 = 1 by construction"));
     }
-    let exact = subject.exact.as_ref().and_then(|exact| {
-        let field = Field::new(exact.valence());
-        row_sum_defect(&field, &exact.limit, &sites)
+    if !place.is_empty() && subject.affine_levels {
+        return Ok(Check::proven(NAME)
+            .enclosing(Interval::point(0.0))
+            .remark("in exact arithmetic, those of leading levels as an identity in the tension"));
+    }
+    let defects = exact.and_then(|exact| {
+        let field = Field::new(exact.fan().sectors());
+        row_sum_defect(&field, exact, &sites)
     });
-    if let Some(defects) = exact {
+    if let Some(defects) = defects {
         let wrong = sites.iter().zip(&defects).filter_map(|(site, defect)| match defect {
             Some((false, by)) => Some((site, *by)),
             _ => None,
@@ -52,7 +93,7 @@ pub fn row_sums(subject: &Subject) -> Result<Check, Error> {
         let worst = wrong.max_by(|a, b| a.1.mag().total_cmp(&b.1.mag()));
         if let Some((site, by)) = worst {
             let text = format!(
-                "the weights of refined point ({}, {}) of sector {} sum to 1 + {}",
+                "the weights of refined point ({}, {}) of sector {}{place} sum to 1 + {}",
                 site.x,
                 site.y,
                 site.sector,
@@ -75,10 +116,13 @@ pub fn row_sums(subject: &Subject) -> Result<Check, Error> {
         .max_by(|a, b| a.1.mag().total_cmp(&b.1.mag()))
         .unwrap_or((&Site::CENTRE, Interval::point(0.0)));
     if !subject.floating && worst.certainly_nonzero() {
-        let text = format!("the weights of refined point ({}, {}) do not sum to 1", site.x, site.y);
+        let text = format!(
+            "the weights of refined point ({}, {}){place} do not sum to 1",
+            site.x, site.y
+        );
         return Ok(Check::refuted(NAME, Witness::new(text).with("defect", worst)).enclosing(worst));
     }
-    let text = format!("sums differ from 1 by at most {:e}", worst.mag());
+    let text = format!("sums{place} differ from 1 by at most {:e}", worst.mag());
     if subject.floating && worst.mag() <= ROUNDING {
         return Ok(Check::proven(NAME).enclosing(worst).remark(text).of_rounded_numbers());
     }
@@ -93,27 +137,32 @@ pub fn row_sums(subject: &Subject) -> Result<Check, Error> {
 /// weights below 1, with room for the rounding of their own computation.
 const ROUNDING: f64 = 1e-12;
 
-/// `hull`: no weight is negative.
+/// `hull`: no weight of any level is negative.
 ///
 /// # Errors
 /// Those of running the rules.
 pub fn hull(subject: &Subject) -> Result<Check, Error> {
-    const NAME: &str = "hull";
-    let sites = sites(subject)?;
-    let rows = refine(&subject.scheme.limit, &WeightNet, &sites)?;
-    let mut smallest: Option<(Site, Site, Interval)> = None;
-    for (&target, row) in sites.iter().zip(&rows) {
-        for (&source, &weight) in row {
-            if smallest.is_none_or(|(_, _, least)| weight.lo() < least.lo()) {
-                smallest = Some((target, source, weight));
+    const NAME: Statement = Statement::Hull;
+    let mut smallest: Option<(Site, Site, Interval, String)> = None;
+    for (level, _, level_name) in levels(subject) {
+        let sites = sites(level)?;
+        let rows = refine(level, &WeightNet, &sites)?;
+        for (&target, row) in sites.iter().zip(&rows) {
+            for (&source, &weight) in row {
+                if smallest
+                    .as_ref()
+                    .is_none_or(|(_, _, least, _)| weight.lo() < least.lo())
+                {
+                    smallest = Some((target, source, weight, level_name.clone()));
+                }
             }
         }
     }
-    let Some((target, source, weight)) = smallest else {
+    let Some((target, source, weight, level)) = smallest else {
         return Ok(Check::undecided(NAME, "no weights"));
     };
     let place = format!(
-        "({}, {}) of sector {} in refined point ({}, {})",
+        "({}, {}) of sector {} in refined point ({}, {}){level}",
         source.x, source.y, source.sector, target.x, target.y
     );
     let check = if weight.lo() >= 0.0 {
@@ -153,7 +202,7 @@ impl Net<Interval> for OneNet {
         site
     }
 
-    fn accumulate(&self, sum: &mut Interval, weight: Interval, at_orbit: &Interval, _site: Site) {
+    fn accumulate(&self, sum: &mut Interval, &weight: &Interval, at_orbit: &Interval, _site: Site) {
         *sum += weight * *at_orbit;
     }
 }
@@ -176,7 +225,7 @@ impl Net<Interval> for WeightNet {
         site
     }
 
-    fn accumulate(&self, sum: &mut Self::Value, weight: Interval, at_orbit: &Self::Value, _site: Site) {
+    fn accumulate(&self, sum: &mut Self::Value, &weight: &Interval, at_orbit: &Self::Value, _site: Site) {
         for (&site, &value) in at_orbit {
             *sum.entry(site).or_insert(Interval::point(0.0)) += weight * value;
         }

@@ -4,7 +4,8 @@
 //! [`Annulus`], not the smallest closed one: outer rings have eigenvalues of their own, and one that equals
 //! lambda makes it defective. It is taken apart before anything is enclosed:
 //!
-//! 1. into Fourier [`Block`]s, real where the rules have mirror symmetry; block N-k is the conjugate of block k;
+//! 1. into Fourier [`Block`]s, real where the rules have mirror symmetry; block N-k is the conjugate of block k; unknowns
+//!    that no patch depends on, at any level, are dropped;
 //! 2. block 0 is divided by the constant vector, whose eigenvalue 1 is exact where rows sum to 1 exactly;
 //! 3. each block into the strongly connected components of its graph, with entries that are **exactly** zero as missing
 //!    edges: its eigenvalues are those of the diagonal parts (`graph`);
@@ -20,7 +21,7 @@ mod map;
 
 pub use block::{Block, Place, blocks};
 pub use component::{Located, Peel, Rest, enclose};
-pub use map::{Net, eigenvector, net};
+pub use map::{Net, eigenvector, is_visible, net};
 
 use crate::linear::Eigenvalue;
 use crate::{Error, Input, Interval};
@@ -115,6 +116,18 @@ impl Spectrum {
         moduli.chain(bounds).max_by(|a, b| a.0.hi().total_cmp(&b.0.hi()))
     }
 
+    /// Whether an entry is certainly larger in modulus than everything else.
+    pub fn leads(&self, entry: &Entry) -> bool {
+        let position = self.entries.iter().position(|other| std::ptr::eq(other, entry));
+        let other = position.and_then(|position| self.largest_other(&[position]));
+        position.is_some() && other.is_none_or(|(other, _)| other.certainly_lt(entry.value.modulus()))
+    }
+
+    /// Whether the surface is proven to see the eigenvector of an entry.
+    pub fn sees(&self, entry: &Entry) -> bool {
+        self.block(entry.index).is_some_and(|block| is_visible(block, entry))
+    }
+
     /// The block of an index.
     pub fn block(&self, index: usize) -> Option<&Block> {
         self.blocks.iter().find(|block| block.index == index)
@@ -132,7 +145,7 @@ pub fn problem(scheme: &eigenring_scheme::Scheme<Interval>) -> Result<(Annulus, 
         numbering: scheme.numbering(rings),
         ..annulus
     };
-    Ok((annulus, blocks(&scheme.limit, rings)?))
+    Ok((annulus, blocks(scheme.limit(), &annulus)?))
 }
 
 /// The largest number of unknowns of a block: dense matrices, of which there are N/2 + 1. Tension of order 22 needs 930.

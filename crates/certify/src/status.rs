@@ -19,6 +19,20 @@ pub enum Status {
     Numerical,
 }
 
+impl Status {
+    /// What is known of two statements together: the one conjunction of this crate. A refuted part refutes the whole; an
+    /// undecided one leaves it undecided; a numerical one leaves it numerical.
+    pub fn and(self, other: Status) -> Status {
+        let rank = |status| match status {
+            Status::Refuted => 0,
+            Status::Undecided => 1,
+            Status::Numerical => 2,
+            Status::Proven => 3,
+        };
+        if rank(other) < rank(self) { other } else { self }
+    }
+}
+
 impl fmt::Display for Status {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -32,6 +46,7 @@ impl fmt::Display for Status {
 
 /// What refutes a statement: a sentence and the numbers in it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Witness {
     /// The sentence.
     pub text: String,
@@ -57,9 +72,10 @@ impl Witness {
 
 /// One statement about a scheme and what is known of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Check {
-    /// Which statement: one of [`NAMES`].
-    pub name: String,
+    /// Which statement.
+    pub name: Statement,
     /// How much is known.
     pub status: Status,
     /// Whether the statement holds, as far as is known: true if proven, or if computed to hold for rounded numbers.
@@ -76,26 +92,82 @@ pub struct Check {
     pub reached: Option<String>,
 }
 
-/// The statements, in the order in which they are listed.
-pub const NAMES: [&str; 11] = [
-    "row_sums",
-    "hull",
-    "dominant",
-    "subdominant",
-    "regular",
-    "injective",
-    "bounded_curvature",
-    "non_degenerate",
-    "strict",
-    "corner",
-    "gauss",
-];
+/// A statement about a scheme at one valence. The order is that in which statements are listed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Statement {
+    /// The weights of every refined point sum to 1, in every level.
+    RowSums,
+    /// No weight is negative, in any level.
+    Hull,
+    /// Levels that differ approach the limit level fast enough for C1 to carry over.
+    Levels,
+    /// The eigenvalue 1 is simple, and all others lie inside the unit disc.
+    Dominant,
+    /// A real positive pair of Fourier index 1 leads all other eigenvalues.
+    Subdominant,
+    /// The Jacobian of the characteristic map has one sign.
+    Regular,
+    /// The characteristic map is injective.
+    Injective,
+    /// No further eigenvalue exceeds `lambda^2` in modulus, and none that reaches it has a Jordan block.
+    BoundedCurvature,
+    /// `lambda^2` is an eigenvalue of the three second-order modes.
+    NonDegenerate,
+    /// All eigenvalues after these three are smaller in modulus.
+    Strict,
+    /// The corner angle of the natural configuration is within its bound.
+    Corner,
+    /// The Gauss curvature of the second-order maps has the wanted signs.
+    Gauss,
+}
+
+impl Statement {
+    /// All of them.
+    pub const ALL: [Statement; 12] = [
+        Statement::RowSums,
+        Statement::Hull,
+        Statement::Levels,
+        Statement::Dominant,
+        Statement::Subdominant,
+        Statement::Regular,
+        Statement::Injective,
+        Statement::BoundedCurvature,
+        Statement::NonDegenerate,
+        Statement::Strict,
+        Statement::Corner,
+        Statement::Gauss,
+    ];
+
+    /// The name that is printed and stored.
+    pub fn name(self) -> &'static str {
+        match self {
+            Statement::RowSums => "row_sums",
+            Statement::Hull => "hull",
+            Statement::Levels => "levels",
+            Statement::Dominant => "dominant",
+            Statement::Subdominant => "subdominant",
+            Statement::Regular => "regular",
+            Statement::Injective => "injective",
+            Statement::BoundedCurvature => "bounded_curvature",
+            Statement::NonDegenerate => "non_degenerate",
+            Statement::Strict => "strict",
+            Statement::Corner => "corner",
+            Statement::Gauss => "gauss",
+        }
+    }
+}
+
+impl fmt::Display for Statement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
 
 impl Check {
-    fn new(name: &str, status: Status) -> Self {
-        debug_assert!(NAMES.contains(&name), "{name} is not listed");
+    fn new(name: Statement, status: Status) -> Self {
         Check {
-            name: name.to_owned(),
+            name,
             status,
             holds: status == Status::Proven,
             rigorous: matches!(status, Status::Proven | Status::Refuted),
@@ -107,19 +179,19 @@ impl Check {
     }
 
     /// A proof.
-    pub fn proven(name: &str) -> Self {
+    pub fn proven(name: Statement) -> Self {
         Check::new(name, Status::Proven)
     }
 
     /// A refutation.
-    pub fn refuted(name: &str, witness: Witness) -> Self {
+    pub fn refuted(name: Statement, witness: Witness) -> Self {
         let mut check = Check::new(name, Status::Refuted);
         check.witness = Some(witness);
         check
     }
 
     /// Neither.
-    pub fn undecided(name: &str, reached: impl Into<String>) -> Self {
+    pub fn undecided(name: Statement, reached: impl Into<String>) -> Self {
         let mut check = Check::new(name, Status::Undecided);
         check.reached = Some(reached.into());
         check
@@ -186,31 +258,43 @@ impl Requirement {
         }
     }
 
-    /// The statements it consists of.
-    pub fn checks(self) -> &'static [&'static str] {
-        const C1: [&str; 5] = ["row_sums", "dominant", "subdominant", "regular", "injective"];
-        const BOUNDED: [&str; 6] = [C1[0], C1[1], C1[2], C1[3], C1[4], "bounded_curvature"];
-        const STRICT: [&str; 7] = [C1[0], C1[1], C1[2], C1[3], C1[4], "bounded_curvature", "strict"];
+    /// The statements it consists of; `levels` is one only of schemes whose levels differ.
+    pub fn statements(self) -> &'static [Statement] {
+        use Statement::{BoundedCurvature, Dominant, Hull, Injective, Levels, Regular, RowSums, Strict, Subdominant};
         match self {
-            Requirement::C1 => &C1,
-            Requirement::Bounded => &BOUNDED,
-            Requirement::Strict => &STRICT,
-            Requirement::Hull => &["hull"],
+            Requirement::C1 => &[RowSums, Levels, Dominant, Subdominant, Regular, Injective],
+            Requirement::Bounded => &[
+                RowSums,
+                Levels,
+                Dominant,
+                Subdominant,
+                Regular,
+                Injective,
+                BoundedCurvature,
+            ],
+            Requirement::Strict => &[
+                RowSums,
+                Levels,
+                Dominant,
+                Subdominant,
+                Regular,
+                Injective,
+                BoundedCurvature,
+                Strict,
+            ],
+            Requirement::Hull => &[Hull],
         }
     }
 
     /// Whether all of its statements are in the list and hold, and how much is known of that at least.
     pub fn verdict(self, checks: &[Check]) -> (bool, Status) {
-        let mut status = Status::Proven;
-        for name in self.checks() {
-            let found = checks.iter().find(|check| check.name == *name);
-            match found.map_or(Status::Undecided, |check| check.status) {
-                Status::Refuted => return (false, Status::Refuted),
-                Status::Undecided => status = Status::Undecided,
-                Status::Numerical if status == Status::Proven => status = Status::Numerical,
-                _ => {}
-            }
-        }
+        let found = |statement: &Statement| checks.iter().find(|check| check.name == *statement).map(|c| c.status);
+        let statuses = self.statements().iter().filter_map(|statement| match found(statement) {
+            // of a stationary scheme there is nothing to say
+            None if *statement == Statement::Levels => None,
+            found => Some(found.unwrap_or(Status::Undecided)),
+        });
+        let status = statuses.fold(Status::Proven, Status::and);
         (matches!(status, Status::Proven | Status::Numerical), status)
     }
 }

@@ -1,7 +1,7 @@
 //! Reading and writing: a file is complete or not there.
 
 use crate::error::Error;
-use std::io::Write;
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
 /// Writes a file under a temporary name in the same folder and renames it when it is complete.
@@ -48,12 +48,25 @@ pub fn check_writable(folder: &Path) -> Result<(), Error> {
     Ok(())
 }
 
+/// The most that is read of a file: the largest certificate of a known scheme has 3 MB, and a device may never end.
+const MAX_BYTES: u64 = 1 << 26;
+
 /// The text of a file.
 pub fn read(path: &Path) -> Result<String, Error> {
-    std::fs::read_to_string(path).map_err(|source| Error::Read {
+    let failed = |source| Error::Read {
         path: path.to_owned(),
         source,
-    })
+    };
+    let file = std::fs::File::open(path).map_err(failed)?;
+    let mut text = String::new();
+    file.take(MAX_BYTES + 1).read_to_string(&mut text).map_err(failed)?;
+    if text.len() as u64 > MAX_BYTES {
+        return Err(Error::BadFile {
+            path: path.to_owned(),
+            message: format!("it is longer than {MAX_BYTES} bytes: accepted are files up to that size"),
+        });
+    }
+    Ok(text)
 }
 
 /// The size of a file that must be there and not be empty.

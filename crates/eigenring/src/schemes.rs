@@ -9,7 +9,7 @@ use crate::progress::note;
 use crate::run::minima_over_lambda;
 use crate::table::short;
 use eigenring_scheme::lambda::{Bounds, Domain, LambdaTable, Plane, Relaxation};
-use eigenring_scheme::user::UserScheme;
+use eigenring_scheme::user::{Reading, UserScheme};
 use eigenring_scheme::{Scheme, Spec};
 use eigenring_tune::sweep::{Options, Problem};
 use serde::{Deserialize, Serialize};
@@ -224,7 +224,8 @@ impl SchemeArg {
     pub fn scheme(&self, valence: usize) -> Result<Scheme<f64>, Error> {
         match self {
             SchemeArg::File(path) => {
-                let scheme = read_scheme(path)?;
+                // every command reads a file's weights alike
+                let scheme = read_scheme(path, Reading::default())?;
                 Ok(scheme.scheme(valence)?)
             }
             SchemeArg::Spec(spec) => match self.lambda_point(valence)? {
@@ -262,10 +263,11 @@ impl SchemeArg {
     }
 }
 
-fn read_scheme(path: &Path) -> Result<UserScheme, Error> {
+/// Reads a scheme file.
+pub fn read_scheme(path: &Path, reading: Reading) -> Result<UserScheme, Error> {
     let text = crate::files::read(path)?;
     let name = path.file_stem().map_or("scheme".into(), |stem| stem.to_string_lossy());
-    UserScheme::parse(&text, &name).map_err(|error| Error::BadFile {
+    UserScheme::parse(&text, &name, reading).map_err(|error| Error::BadFile {
         path: path.to_owned(),
         message: error.to_string(),
     })

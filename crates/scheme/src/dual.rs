@@ -1,6 +1,7 @@
 //! Forward derivatives: a value together with its derivatives in `D` directions.
 
-use crate::Scalar;
+use crate::{Same, Scalar};
+use num_rational::BigRational;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// `value + sum_j parts[j] eps_j` with `eps_i eps_j = 0`: running a formula on duals gives its value and its exact
@@ -13,7 +14,7 @@ pub struct Dual<S, const D: usize = 1> {
     pub parts: [S; D],
 }
 
-impl<S: Scalar, const D: usize> Dual<S, D> {
+impl<S: Scalar + Copy, const D: usize> Dual<S, D> {
     /// A constant: all derivatives zero.
     pub fn constant(value: S) -> Self {
         Dual {
@@ -38,21 +39,21 @@ impl<S: Scalar, const D: usize> Dual<S, D> {
     }
 }
 
-impl<S: Scalar, const D: usize> Add for Dual<S, D> {
+impl<S: Scalar + Copy, const D: usize> Add for Dual<S, D> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
         self.zip(other, self.value + other.value, |p, q| p + q)
     }
 }
 
-impl<S: Scalar, const D: usize> Sub for Dual<S, D> {
+impl<S: Scalar + Copy, const D: usize> Sub for Dual<S, D> {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
         self.zip(other, self.value - other.value, |p, q| p - q)
     }
 }
 
-impl<S: Scalar, const D: usize> Mul for Dual<S, D> {
+impl<S: Scalar + Copy, const D: usize> Mul for Dual<S, D> {
     type Output = Self;
     #[expect(clippy::suspicious_arithmetic_impl, reason = "the product rule adds")]
     fn mul(self, other: Self) -> Self {
@@ -61,7 +62,7 @@ impl<S: Scalar, const D: usize> Mul for Dual<S, D> {
     }
 }
 
-impl<S: Scalar, const D: usize> Div for Dual<S, D> {
+impl<S: Scalar + Copy, const D: usize> Div for Dual<S, D> {
     type Output = Self;
     #[expect(
         clippy::suspicious_arithmetic_impl,
@@ -73,7 +74,7 @@ impl<S: Scalar, const D: usize> Div for Dual<S, D> {
     }
 }
 
-impl<S: Scalar, const D: usize> Neg for Dual<S, D> {
+impl<S: Scalar + Copy, const D: usize> Neg for Dual<S, D> {
     type Output = Self;
     fn neg(self) -> Self {
         Dual {
@@ -83,25 +84,36 @@ impl<S: Scalar, const D: usize> Neg for Dual<S, D> {
     }
 }
 
-impl<S: Scalar, const D: usize> AddAssign for Dual<S, D> {
+impl<S: Scalar + Copy, const D: usize> AddAssign for Dual<S, D> {
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl<S: Scalar, const D: usize> SubAssign for Dual<S, D> {
+impl<S: Scalar + Copy, const D: usize> SubAssign for Dual<S, D> {
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }
 }
 
-impl<S: Scalar, const D: usize> Scalar for Dual<S, D> {
+impl<S: Same, const D: usize> Same for Dual<S, D> {
+    fn same(&self, other: &Self) -> bool {
+        let pairs = self.parts.iter().zip(&other.parts);
+        self.value.same(&other.value) && pairs.fold(true, |all, (p, q)| all && p.same(q))
+    }
+}
+
+impl<S: Scalar + Copy, const D: usize> Scalar for Dual<S, D> {
     fn ratio(p: i64, q: i64) -> Self {
         Self::constant(S::ratio(p, q))
     }
 
     fn exact(value: f64) -> Self {
         Self::constant(S::exact(value))
+    }
+
+    fn rational(value: &BigRational) -> Self {
+        Self::constant(S::rational(value))
     }
 
     fn sqrt(self) -> Self {
@@ -126,7 +138,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn formula<S: Scalar>(x: S, y: S) -> S {
+    fn formula<S: Scalar + Copy>(x: S, y: S) -> S {
         let mut sum = (x * y - S::ratio(1, 3)) / (x + y * y) + (x * x + y).sqrt();
         sum += S::cos_turn(1, 5) * y;
         sum -= -x;

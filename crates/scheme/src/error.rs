@@ -1,6 +1,6 @@
 //! What can be wrong with a scheme's description.
 
-use crate::Site;
+use crate::{Lattice, Site};
 
 /// Why a scheme, a parameter or a scheme file is refused. Every variant carries the offending numbers; the message of a
 /// range error ends with the accepted range.
@@ -26,6 +26,14 @@ pub enum Error {
         s: f64,
         /// The lambda it was given for.
         lambda: f64,
+    },
+    /// Passes that are no level of refinement.
+    #[error("{}{fault}", pass.map_or(String::new(), |pass| format!("pass {}: ", pass + 1)))]
+    Rules {
+        /// The pass, from 0; `None` for all together.
+        pass: Option<usize>,
+        /// What is wrong.
+        fault: RuleFault,
     },
     /// A regular rule reaches across the centre, where the plane has no unique continuation.
     #[error(
@@ -55,6 +63,14 @@ pub enum Error {
         index: usize,
         /// The number of sectors.
         valence: usize,
+    },
+    /// The rules of a scheme whose sectors differ reach over too many points.
+    #[error("the rules reach over {points} points of sectors that differ: accepted are up to {maximum}")]
+    NetSize {
+        /// How many there are.
+        points: usize,
+        /// How many are looked at.
+        maximum: usize,
     },
     /// No ring is closed under refinement.
     #[error("no control net of up to {rings} rings is closed under refinement")]
@@ -224,6 +240,83 @@ pub enum Error {
     /// A table of the lambda-scheme is not valid.
     #[error("table of the lambda-scheme: {0}")]
     Table(#[from] crate::lambda::TableError),
+}
+
+/// Why passes are no level of refinement.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RuleFault {
+    /// A level has at least one pass.
+    #[error("no pass is given: accepted is one or more")]
+    NoPass,
+    /// Passes follow each other.
+    #[error(
+        "each pass must read the kind of net that the pass before makes, and the last make the kind that the first reads"
+    )]
+    Chain,
+    /// A level refines twofold.
+    #[error("the passes refine {scale}-fold: accepted is 2 (one pass with two classes of taps, the others with one)")]
+    Scale {
+        /// The product of the passes' scales.
+        scale: i64,
+    },
+    /// Open fans are those of vertices.
+    #[error("an open fan around a face: accepted are open fans of vertex nets")]
+    OpenFace,
+    /// Lines by sector come in one pair for each spoke.
+    #[error("lines for {found} spokes: accepted are exactly {expected}")]
+    Sectors {
+        /// How many are given.
+        found: usize,
+        /// The number of spokes.
+        expected: usize,
+    },
+    /// The taps do not lead from net to net.
+    #[error("line: the offsets do not lead from the {} net to the {} net: {}", from.name(), to.name(), offsets(*from, *to))]
+    Line {
+        /// The net that is read.
+        from: Lattice,
+        /// The net that is made.
+        to: Lattice,
+    },
+    /// A special stencil makes no point of the net.
+    #[error("({}, {}) of sector {} is no point of the {} net of the fan", site.x, site.y, site.sector, lattice.name())]
+    Target {
+        /// The point.
+        site: Site,
+        /// The net that is made.
+        lattice: Lattice,
+    },
+    /// A special stencil reads no point of the net.
+    #[error(
+        "the stencil of ({}, {}) reads ({}, {}) of sector {}, which is no point of the {} net of the fan",
+        site.x, site.y, read.x, read.y, read.sector, lattice.name()
+    )]
+    Source {
+        /// The point that is made.
+        site: Site,
+        /// What it reads.
+        read: Site,
+        /// The net that is read.
+        lattice: Lattice,
+    },
+}
+
+fn offsets(from: Lattice, to: Lattice) -> &'static str {
+    match (from, to) {
+        (Lattice::Vertex, Lattice::Vertex) => {
+            "with one class of taps even offsets are accepted; with two, multiples of 4 in the first and 2 more in the second"
+        }
+        (Lattice::Face, Lattice::Face) => {
+            "with one class of taps even offsets are accepted; with two, offsets 1, -3, 5, .. in the first and -1, 3, -5, .. in the second"
+        }
+        (Lattice::Vertex, Lattice::Face) => {
+            "with one class of taps odd offsets are accepted; with two, offsets -1, 3, -5, .. in the first and 1, -3, 5, .. in the second"
+        }
+        (Lattice::Face, Lattice::Vertex) => {
+            "with one class of taps odd offsets are accepted; with two, offsets 2, -2, 6, .. in the first and multiples of 4 in the second"
+        }
+    }
 }
 
 fn accepted(tabulated: &[usize]) -> String {

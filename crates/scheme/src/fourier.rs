@@ -33,7 +33,7 @@ pub struct Form<S> {
     coefficients: Vec<Complex<S>>,
 }
 
-impl<S: Scalar> Form<S> {
+impl<S: Scalar + Copy> Form<S> {
     /// The coefficients of all unknowns.
     pub fn coefficients(&self) -> &[Complex<S>] {
         &self.coefficients
@@ -67,11 +67,11 @@ impl<S: Scalar> Form<S> {
     }
 }
 
-fn times<S: Scalar>(a: Complex<S>, b: Complex<S>) -> Complex<S> {
+fn times<S: Scalar + Copy>(a: Complex<S>, b: Complex<S>) -> Complex<S> {
     (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
 }
 
-impl<S: Scalar> FourierNet<S> {
+impl<S: Scalar + Copy> FourierNet<S> {
     /// The net of Fourier index `index`, with real unknowns if `mirror`.
     ///
     /// # Errors
@@ -129,7 +129,7 @@ impl<S: Scalar> FourierNet<S> {
     pub fn mode(&self, unknowns: &[Complex<S>], site: Site) -> Result<Complex<S>, Error> {
         let control = self.control(self.orbit(site))?;
         let mut moved = self.zero();
-        self.accumulate(&mut moved, S::one(), &control, site);
+        self.accumulate(&mut moved, &S::one(), &control, site);
         let mut sum = (S::zero(), S::zero());
         for (&coefficient, &unknown) in moved.coefficients.iter().zip(unknowns) {
             let term = times(coefficient, unknown);
@@ -199,7 +199,7 @@ impl<S: Scalar> FourierNet<S> {
     }
 }
 
-impl<S: Scalar> Net<S> for FourierNet<S> {
+impl<S: Scalar + Copy> Net<S> for FourierNet<S> {
     type Value = Form<S>;
 
     fn zero(&self) -> Form<S> {
@@ -245,7 +245,7 @@ impl<S: Scalar> Net<S> for FourierNet<S> {
 
     /// A point `(x, y)` with `x < y` is the reflection of `(y, x)`: its value is `w^{k (2i+1)/2}` times the conjugate of
     /// `w^{-k/2} v(y, x)`.
-    fn accumulate(&self, sum: &mut Form<S>, weight: S, at_orbit: &Form<S>, site: Site) {
+    fn accumulate(&self, sum: &mut Form<S>, &weight: &S, at_orbit: &Form<S>, site: Site) {
         if site == Site::CENTRE && self.index != 0 {
             return;
         }

@@ -1,21 +1,38 @@
 //! Rules for regular points: one dimension, to be used in both.
 
-use crate::{Lattice, Scalar};
+use crate::{Lattice, Same, Scalar};
+use std::collections::BTreeMap;
 
-/// A rule of univariate subdivision or smoothing. The regular points of a [`Pass`](crate::Pass) use its tensor product.
+/// The points that make another one: positions in half steps, and weights.
+pub type Taps<W> = Vec<(i32, W)>;
+
+/// A rule of univariate subdivision or smoothing, across one spoke. The regular points of a [`Pass`](crate::Pass) use the tensor
+/// product of two.
 ///
-/// All positions are in half steps. A target point `X` belongs to the class `floor(X/2) mod scale`; a tap `(offset, w)` of
-/// its class reads the source point `(X + offset) / scale` with weight `w`.
+/// All positions are in half steps from the spoke. A target point `X` belongs to the class `floor(X/2) mod scale`; a tap
+/// `(offset, w)` of its class reads the source point `(X + offset) / scale` with weight `w`. Targets near the spoke may have
+/// taps of their own, given by their sources: a crease keeps what lies beyond it out of its rules, and knot intervals change
+/// from one side of a spoke to the other. Beyond them the rule is uniform.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Line<S> {
-    classes: Vec<Vec<(i32, S)>>,
+pub struct Line<W> {
+    classes: Vec<Taps<W>>,
+    near: BTreeMap<i32, Taps<W>>,
 }
 
-impl<S: Scalar> Line<S> {
-    /// A rule with one list of taps per class; as many classes as the target is finer than the source.
-    pub fn new(classes: Vec<Vec<(i32, S)>>) -> Self {
-        debug_assert!(!classes.is_empty(), "a rule has at least one class");
-        Line { classes }
+impl<W: Clone> Line<W> {
+    /// A uniform rule with one list of taps per class; as many classes as the target is finer than the source.
+    pub fn new(classes: Vec<Taps<W>>) -> Self {
+        Line {
+            classes,
+            near: BTreeMap::new(),
+        }
+    }
+
+    /// The same with taps `(source, weight)` of its own for the target at `x >= 0`.
+    pub fn with_near(mut self, x: i32, taps: Taps<W>) -> Self {
+        debug_assert!(x >= 0, "a point of a sector has no negative coordinate");
+        self.near.insert(x, taps);
+        self
     }
 
     /// Target points per source point: 1 for smoothing, 2 for refinement.
@@ -24,66 +41,116 @@ impl<S: Scalar> Line<S> {
     }
 
     /// The taps of each class.
-    pub fn classes(&self) -> &[Vec<(i32, S)>] {
+    pub fn classes(&self) -> &[Taps<W>] {
         &self.classes
     }
 
     /// The sources and weights of the target point `x`.
-    pub fn taps(&self, x: i32) -> impl Iterator<Item = (i32, S)> + '_ {
+    pub fn taps(&self, x: i32) -> impl Iterator<Item = (i32, W)> + '_ {
         let scale = self.scale();
-        let class = x.div_euclid(2).rem_euclid(scale);
-        self.classes[class as usize]
+        let near = self.near.get(&x);
+        let class = x.div_euclid(2).rem_euclid(scale) as usize;
+        let uniform = if near.is_some() { &[][..] } else { &self.classes[class] };
+        let uniform = uniform
             .iter()
-            .map(move |&(offset, weight)| ((x + offset).div_euclid(scale), weight))
+            .map(move |(offset, weight)| ((x + offset).div_euclid(scale), weight.clone()));
+        near.into_iter().flatten().cloned().chain(uniform)
+    }
+
+    /// The farthest target that can read a source at most `reach` half steps away from the spoke.
+    pub(crate) fn farthest_reader(&self, reach: i32) -> i32 {
+        let offsets = self.classes.iter().flatten().map(|(offset, _)| offset.abs());
+        let uniform = self.scale() * reach + offsets.max().unwrap_or(0);
+        let near = self.near.last_key_value().map_or(0, |(&x, _)| x);
+        uniform.max(near)
     }
 
     /// Whether every tap of every class leads from a point of `to` to a point of `from`.
     pub fn connects(&self, from: Lattice, to: Lattice) -> bool {
         let scale = self.scale();
-        (0..scale).all(|class| {
+        let on = |lattice: Lattice, x: i32| (x - lattice.parity()).rem_euclid(2) == 0;
+        let uniform = (0..scale).all(|class| {
             let x = 2 * class + to.parity();
-            self.classes[class as usize].iter().all(|&(offset, _)| {
-                (x + offset).rem_euclid(scale) == 0 && ((x + offset) / scale - from.parity()).rem_euclid(2) == 0
-            })
-        })
+            let mut taps = self.classes[class as usize].iter();
+            taps.all(|&(offset, _)| (x + offset).rem_euclid(scale) == 0 && on(from, (x + offset) / scale))
+        });
+        let mut near = self.near.iter();
+        uniform && near.all(|(&x, taps)| on(to, x) && taps.iter().all(|&(source, _)| on(from, source)))
     }
 
+    /// The same rule with other weights.
+    pub fn map<T: Clone>(&self, mut f: impl FnMut(&W) -> T) -> Line<T> {
+        let mut taps = |list: &Taps<W>| list.iter().map(|(x, weight)| (*x, f(weight))).collect();
+        Line {
+            classes: self.classes.iter().map(&mut taps).collect(),
+            near: self.near.iter().map(|(&x, list)| (x, taps(list))).collect(),
+        }
+    }
+}
+
+impl<W: Same> Line<W> {
+    /// Whether both rules are known to be the same.
+    pub fn same(&self, other: &Self) -> bool {
+        let taps =
+            |a: &Taps<W>, b: &Taps<W>| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.0 == b.0 && a.1.same(&b.1));
+        self.classes.len() == other.classes.len()
+            && self.classes.iter().zip(&other.classes).all(|(a, b)| taps(a, b))
+            && self.near.len() == other.near.len()
+            && self
+                .near
+                .iter()
+                .zip(&other.near)
+                .all(|(a, b)| a.0 == b.0 && taps(a.1, b.1))
+    }
+
+    /// Whether a point on the spoke is made alike from both sides of it.
+    pub fn is_symmetric_on_spoke(&self) -> bool {
+        let taps: BTreeMap<i32, W> = self.taps(0).collect();
+        let symmetric = |(x, weight): (&i32, &W)| taps.get(&-x).is_some_and(|image| weight.same(image));
+        taps.len() == self.taps(0).count() && taps.iter().all(symmetric)
+    }
+}
+
+impl<S: Scalar> Line<S> {
     /// Points stay, edges get their midpoint: refinement of linear B-splines on a vertex net.
     pub fn midpoint() -> Self {
         let half = S::ratio(1, 2);
-        Line::new(vec![vec![(0, S::one())], vec![(-2, half), (2, half)]])
+        Line::new(vec![vec![(0, S::one())], vec![(-2, half.clone()), (2, half)]])
     }
 
     /// Refinement of uniform cubic B-splines on a vertex net: (1, 6, 1)/8 and (1, 1)/2.
     pub fn cubic() -> Self {
         let (eighth, half) = (S::ratio(1, 8), S::ratio(1, 2));
         Line::new(vec![
-            vec![(-4, eighth), (0, S::ratio(3, 4)), (4, eighth)],
-            vec![(-2, half), (2, half)],
+            vec![(-4, eighth.clone()), (0, S::ratio(3, 4)), (4, eighth)],
+            vec![(-2, half.clone()), (2, half)],
         ])
     }
 
     /// The mean of two neighbours: from a vertex net to the face net between, or back.
     pub fn average() -> Self {
         let half = S::ratio(1, 2);
-        Line::new(vec![vec![(-1, half), (1, half)]])
+        Line::new(vec![vec![(-1, half.clone()), (1, half)]])
     }
 
     /// Smoothing (1, 2u, 1) / (2 (1+u)) with tension `u`; `u = 1` averages twice. Fang, Ma and Wang, generalised tension
     /// scheme, even orders.
     pub fn smoothing(u: S) -> Self {
         let (one, two) = (S::one(), S::ratio(2, 1));
-        let side = one / (two * (one + u));
-        Line::new(vec![vec![(-2, side), (0, u / (one + u)), (2, side)]])
+        let side = one.clone() / (two * (one.clone() + u.clone()));
+        Line::new(vec![vec![(-2, side.clone()), (0, u.clone() / (one + u)), (2, side)]])
     }
 
     /// Corner cutting (1+2u, 1) / (2 (1+u)) with tension `u` on a face net; `u = 1` is Chaikin's rule. Fang, Ma and Wang,
     /// generalised tension scheme, order 3.
     pub fn corner_cutting(u: S) -> Self {
         let (one, two) = (S::one(), S::ratio(2, 1));
-        let far = one / (two * (one + u));
-        let near = one - far;
-        Line::new(vec![vec![(1, near), (-3, far)], vec![(-1, near), (3, far)]])
+        let far = one.clone() / (two * (one.clone() + u));
+        let near = one - far.clone();
+        Line::new(vec![
+            vec![(1, near.clone()), (-3, far.clone())],
+            vec![(-1, near), (3, far)],
+        ])
     }
 }
 
@@ -109,9 +176,17 @@ mod tests {
                 let x = 2 * x + to.parity();
                 let taps: Vec<(i32, f64)> = line.taps(x).collect();
                 assert!((taps.iter().map(|t| t.1).sum::<f64>() - 1.0).abs() < 1e-15);
-                // every rule here reproduces straight lines: the taps' mean is the place itself
                 let mean: f64 = taps.iter().map(|&(source, w)| w * f64::from(source)).sum();
-                assert!((mean * f64::from(line.scale()) - f64::from(x)).abs() < 1e-14 || line.scale() == 2);
+                // straight lines are reproduced at their own place by all rules but corner cutting off u = 1, which moves
+                // the points of both classes by (1-u)/(1+u) half steps towards each other
+                let shift = mean * f64::from(line.scale()) - f64::from(x);
+                let expected = if line == Line::corner_cutting(u) {
+                    let towards = if x.div_euclid(2).rem_euclid(2) == 0 { -1.0 } else { 1.0 };
+                    towards * (1.0 - u) / (1.0 + u)
+                } else {
+                    0.0
+                };
+                assert!((shift - expected).abs() < 1e-14, "{x}: {shift}");
             }
         }
         assert!(!Line::<f64>::cubic().connects(Face, Face));

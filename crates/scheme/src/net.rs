@@ -28,7 +28,7 @@ pub trait Net<S: Scalar> {
     fn orbit(&self, site: Site) -> Site;
 
     /// Adds `weight` times the value at `site` to `sum`, given the value at `orbit(site)`.
-    fn accumulate(&self, sum: &mut Self::Value, weight: S, at_orbit: &Self::Value, site: Site);
+    fn accumulate(&self, sum: &mut Self::Value, weight: &S, at_orbit: &Self::Value, site: Site);
 }
 
 /// The values that the level gives to the refined points `targets`, in their order.
@@ -56,7 +56,7 @@ pub struct Plan<S> {
 /// How a pass makes one point.
 type Sum<S> = Vec<Term<S>>;
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Term<S> {
     /// The place of the source's orbit among what the pass before has made.
     at: usize,
@@ -82,8 +82,8 @@ impl<S: Scalar> Plan<S> {
         distinct(&mut needed);
         let targets = targets.iter().map(|&site| (place(&needed, site), site)).collect();
         // backwards, since what a pass must make is what the next one reads
-        let mut passes = Vec::with_capacity(level.passes.len());
-        for pass in (0..level.passes.len()).rev() {
+        let mut passes = Vec::with_capacity(level.passes().len());
+        for pass in (0..level.passes().len()).rev() {
             let stencils = needed
                 .iter()
                 .map(|&site| level.stencil(pass, site))
@@ -91,15 +91,15 @@ impl<S: Scalar> Plan<S> {
             needed = stencils
                 .iter()
                 .flat_map(|stencil| stencil.terms())
-                .map(|&(source, _)| orbit(source))
+                .map(|(source, _)| orbit(*source))
                 .collect();
             distinct(&mut needed);
             let sum = |stencil: &Stencil<S>| -> Sum<S> {
                 let terms = stencil.terms().iter();
-                let term = |&(source, weight)| Term {
-                    at: place(&needed, source),
-                    source,
-                    weight,
+                let term = |(source, weight): &(Site, S)| Term {
+                    at: place(&needed, *source),
+                    source: *source,
+                    weight: weight.clone(),
                 };
                 terms.map(term).collect()
             };
@@ -126,15 +126,16 @@ impl<S: Scalar> Plan<S> {
             let made = pass.iter().map(|terms| {
                 let mut sum = net.zero();
                 for term in terms {
-                    net.accumulate(&mut sum, term.weight, &values[term.at], term.source);
+                    net.accumulate(&mut sum, &term.weight, &values[term.at], term.source);
                 }
                 sum
             });
             values = made.collect();
         }
+        let one = S::one();
         let targets = self.targets.iter().map(|&(at, site)| {
             let mut value = net.zero();
-            net.accumulate(&mut value, S::one(), &values[at], site);
+            net.accumulate(&mut value, &one, &values[at], site);
             value
         });
         Ok(targets.collect())
@@ -166,9 +167,9 @@ impl<S: Scalar> Net<S> for DenseNet {
         site
     }
 
-    fn accumulate(&self, sum: &mut Vec<S>, weight: S, at_orbit: &Vec<S>, _site: Site) {
-        for (sum, &entry) in sum.iter_mut().zip(at_orbit) {
-            *sum += weight * entry;
+    fn accumulate(&self, sum: &mut Vec<S>, weight: &S, at_orbit: &Vec<S>, _site: Site) {
+        for (sum, entry) in sum.iter_mut().zip(at_orbit) {
+            *sum += weight.clone() * entry.clone();
         }
     }
 }
@@ -193,20 +194,20 @@ impl<S: Scalar, const D: usize> Net<S> for PointNet<S, D> {
     type Value = [S; D];
 
     fn zero(&self) -> [S; D] {
-        [S::zero(); D]
+        std::array::from_fn(|_| S::zero())
     }
 
     fn control(&self, site: Site) -> Result<[S; D], Error> {
-        Ok(self.points[beyond(self.numbering, site)?])
+        Ok(self.points[beyond(self.numbering, site)?].clone())
     }
 
     fn orbit(&self, site: Site) -> Site {
         site
     }
 
-    fn accumulate(&self, sum: &mut [S; D], weight: S, at_orbit: &[S; D], _site: Site) {
-        for (sum, &coordinate) in sum.iter_mut().zip(at_orbit) {
-            *sum += weight * coordinate;
+    fn accumulate(&self, sum: &mut [S; D], weight: &S, at_orbit: &[S; D], _site: Site) {
+        for (sum, coordinate) in sum.iter_mut().zip(at_orbit) {
+            *sum += weight.clone() * coordinate.clone();
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Schemes that change only the three stencils next to an extraordinary vertex of a bicubic surface.
 
-use crate::{Error, Fan, Lattice, Level, Line, Pass, Scalar, Scheme, Site, Stencil};
+use crate::{Error, Fan, Lattice, Level, Line, Pass, Same, Scalar, Scheme, Site, Stencil};
 
 /// The nine weights of a one-ring scheme around a vertex V with neighbours E_i (edges) and F_i (faces, between E_i and
 /// E_{i+1}):
@@ -64,43 +64,98 @@ impl<S: Scalar> OneRing<S> {
         ]
     }
 
-    /// The scheme: uniform bicubic refinement with these stencils at V, E_i and F_i.
+    /// The scheme: uniform bicubic refinement with these stencils at V, E_i and F_i. It has dihedral symmetry whatever the weights
+    /// are.
     ///
     /// # Errors
     /// [`Error::Valence`] below 3.
     pub fn scheme(self, name: impl Into<String>, valence: usize) -> Result<Scheme<S>, Error> {
+        Ok(Scheme::stationary(name, self.level_with(valence, |_| true)?))
+    }
+
+    /// The level in which only the points that `special` agrees to have these stencils, and all others the regular rules.
+    pub(crate) fn level_with(self, valence: usize, special: impl Fn(Site) -> bool) -> Result<Level<S>, Error> {
+        let n = S::ratio(valence.max(1) as i64, 1);
+        let own = S::one() - self.alpha.clone() - self.beta.clone();
+        let level = Name::level(valence, special)?.map(|name| match name {
+            Name::F1 => self.f1.clone(),
+            Name::F2 => self.f2.clone(),
+            Name::F3 => self.f3.clone(),
+            Name::D1 => self.d1.clone(),
+            Name::D2 => self.d2.clone(),
+            Name::E1 => self.e1.clone(),
+            Name::E2 => self.e2.clone(),
+            Name::Own => own.clone(),
+            Name::Alpha => self.alpha.clone() / n.clone(),
+            Name::Beta => self.beta.clone() / n.clone(),
+            Name::Regular(p, q) => S::ratio(*p, *q),
+        });
+        Ok(level)
+    }
+}
+
+/// The weights of the rules by name: the symmetry of a level over names holds for all values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Name {
+    F1,
+    F2,
+    F3,
+    D1,
+    D2,
+    E1,
+    E2,
+    /// The centre's own weight.
+    Own,
+    /// `alpha / N`.
+    Alpha,
+    /// `beta / N`.
+    Beta,
+    /// A weight of the regular rules.
+    Regular(i64, i64),
+}
+
+impl Same for Name {
+    fn same(&self, other: &Self) -> bool {
+        self == other
+    }
+}
+
+impl Name {
+    fn level(valence: usize, special: impl Fn(Site) -> bool) -> Result<Level<Name>, Error> {
         if valence < 3 {
             return Err(Error::Valence { valence });
         }
         let fan = Fan::Closed(valence);
         let next = |site: Site, by: i64| site.rotated(fan, by);
-        let n = S::ratio(valence as i64, 1);
         let face = Stencil::new()
-            .with(Site::CENTRE, self.f1)
-            .with(EDGE, self.f2)
-            .with(next(EDGE, 1), self.f2)
-            .with(FACE, self.f3);
+            .with(Site::CENTRE, Name::F1)
+            .with(EDGE, Name::F2)
+            .with(next(EDGE, 1), Name::F2)
+            .with(FACE, Name::F3);
         let edge = Stencil::new()
-            .with(Site::CENTRE, self.d1)
-            .with(EDGE, self.d2)
-            .with(next(EDGE, -1), self.e1)
-            .with(next(EDGE, 1), self.e1)
-            .with(next(FACE, -1), self.e2)
-            .with(FACE, self.e2);
+            .with(Site::CENTRE, Name::D1)
+            .with(EDGE, Name::D2)
+            .with(next(EDGE, -1), Name::E1)
+            .with(next(EDGE, 1), Name::E1)
+            .with(next(FACE, -1), Name::E2)
+            .with(FACE, Name::E2);
         let vertex = Stencil::new()
-            .with(Site::CENTRE, S::one() - self.alpha - self.beta)
-            .with_orbit(fan, EDGE, self.alpha / n)
-            .with_orbit(fan, FACE, self.beta / n);
-        let pass = Pass::regular(Lattice::Vertex, Lattice::Vertex, Line::cubic())
+            .with(Site::CENTRE, Name::Own)
+            .with_orbit(fan, EDGE, Name::Alpha)
+            .with_orbit(fan, FACE, Name::Beta);
+        let line = Line::new(vec![
+            vec![
+                (-4, Name::Regular(1, 8)),
+                (0, Name::Regular(3, 4)),
+                (4, Name::Regular(1, 8)),
+            ],
+            vec![(-2, Name::Regular(1, 2)), (2, Name::Regular(1, 2))],
+        ]);
+        let pass = Pass::regular(Lattice::Vertex, Lattice::Vertex, line)
             .with(Site::CENTRE, vertex)
             .with(EDGE, edge)
-            .with(FACE, face);
-        let level = Level {
-            fan,
-            passes: vec![pass],
-            symmetric: true,
-            mirror: true,
-        };
-        Ok(Scheme::stationary(name, 3, level))
+            .with(FACE, face)
+            .retaining(special);
+        Level::new(fan, vec![pass])
     }
 }

@@ -1,152 +1,163 @@
 //! Passes: the primitive from which every scheme is made.
 
-use crate::{Error, Fan, Lattice, Line, Scalar, Site, Stencil};
+use crate::{Fan, Lattice, Line, Site, Stencil};
 use std::collections::BTreeMap;
 
 /// One linear step from a net to a net: a tensor-product rule at regular points, explicit stencils near the centre.
 ///
 /// A pass reads a neighbourhood of one step only; wider rules are several passes in a row, run and never multiplied out.
 #[derive(Clone, Debug)]
-pub struct Pass<S> {
-    /// The net that is read.
-    pub from: Lattice,
-    /// The net that is made.
-    pub to: Lattice,
-    /// The rule of regular points, used along both spokes.
-    pub line: Line<S>,
-    /// The points with a stencil of their own. In a rotation-symmetric level only sites of sector 0 are listed.
-    pub special: BTreeMap<Site, Stencil<S>>,
+pub struct Pass<W> {
+    from: Lattice,
+    to: Lattice,
+    lines: Lines<W>,
+    special: BTreeMap<Site, Stencil<W>>,
 }
 
-impl<S: Scalar> Pass<S> {
-    /// A pass without special points.
-    pub fn regular(from: Lattice, to: Lattice, line: Line<S>) -> Self {
-        debug_assert!(
-            line.connects(from, to),
-            "the rule does not lead from {from:?} to {to:?}"
-        );
+/// The rules of regular points.
+#[derive(Clone, Debug)]
+enum Lines<W> {
+    /// One rule in every sector and in both directions.
+    Alike(Line<W>),
+    /// For each spoke i the rules of the sector that begins there: of the coordinate along spoke i, which crosses spoke i+1,
+    /// and of the coordinate along spoke i+1, which crosses spoke i.
+    Sectors(Vec<[Line<W>; 2]>),
+}
+
+impl<W: Clone> Pass<W> {
+    /// A pass without special points, the same rule everywhere.
+    pub fn regular(from: Lattice, to: Lattice, line: Line<W>) -> Self {
         Pass {
             from,
             to,
-            line,
+            lines: Lines::Alike(line),
             special: BTreeMap::new(),
         }
     }
 
-    /// The same with a stencil at `site`.
-    pub fn with(mut self, site: Site, stencil: Stencil<S>) -> Self {
-        debug_assert!(site.lattice() == self.to, "{site:?} is not a point of the target net");
+    /// A pass without special points whose rules differ from spoke to spoke: `lines[i]` are those of the sector that begins at
+    /// spoke i, along that spoke (across the next) and along the next (across that spoke). There is one pair for each
+    /// [spoke](Fan::spokes); the last of an open fan belongs to the points of its last spoke.
+    pub fn by_sector(from: Lattice, to: Lattice, lines: Vec<[Line<W>; 2]>) -> Self {
+        Pass {
+            from,
+            to,
+            lines: Lines::Sectors(lines),
+            special: BTreeMap::new(),
+        }
+    }
+
+    /// The same with a stencil at `site`. In a closed fan stencils of sector 0 stand for all sectors unless some pass of the
+    /// level has one in another sector.
+    pub fn with(mut self, site: Site, stencil: Stencil<W>) -> Self {
         self.special.insert(site, stencil);
         self
     }
 
-    /// The tensor-product rule at `site`.
-    fn tensor_product(&self, fan: Fan, site: Site) -> Result<Stencil<S>, Error> {
-        let mut stencil = Stencil::new();
-        for (x, wx) in self.line.taps(site.x) {
-            for (y, wy) in self.line.taps(site.y) {
-                let source = Site::new(fan, site.sector as i64, x, y).ok_or(Error::AcrossCentre { site, x, y })?;
-                stencil.add(source, wx * wy);
+    /// The net that is read.
+    pub fn from(&self) -> Lattice {
+        self.from
+    }
+
+    /// The net that is made.
+    pub fn to(&self) -> Lattice {
+        self.to
+    }
+
+    /// The rules of the points of a sector: along its own spoke, and along the next.
+    pub fn lines(&self, sector: usize) -> [&Line<W>; 2] {
+        match &self.lines {
+            Lines::Alike(line) => [line, line],
+            // the centre and the regular points of sectors beyond the list do not exist: Level::new has counted them
+            Lines::Sectors(lines) => {
+                let [own, next] = &lines[sector];
+                [own, next]
             }
         }
-        Ok(stencil)
-    }
-}
-
-/// One level of refinement: passes in order.
-#[derive(Clone, Debug)]
-pub struct Level<S> {
-    /// The sectors around the centre.
-    pub fan: Fan,
-    /// The passes; the first reads the control net, the last makes the refined one.
-    pub passes: Vec<Pass<S>>,
-    /// Whether all sectors have the rules of sector 0 (then special stencils are listed for sector 0 only).
-    pub symmetric: bool,
-    /// Whether the rules are also symmetric under reflection in a spoke, so that every Fourier block is similar to a real
-    /// matrix.
-    pub mirror: bool,
-}
-
-impl<S: Scalar> Level<S> {
-    /// The kind of net before and after refinement.
-    pub fn lattice(&self) -> Lattice {
-        self.passes.first().map_or(Lattice::Vertex, |pass| pass.from)
     }
 
-    /// The site that stands for `site` and all places that the symmetries of the rules exchange with it.
-    pub fn orbit(&self, site: Site) -> Site {
-        let Site {
-            mut sector,
-            mut x,
-            mut y,
-        } = site;
-        if self.symmetric {
-            sector = 0;
-            if self.mirror && x < y {
-                (x, y) = (y, x);
-            }
-        }
-        Site { sector, x, y }
-    }
-
-    fn special(&self, pass: usize, site: Site) -> Option<Stencil<S>> {
-        let special = &self.passes[pass].special;
-        if self.symmetric {
-            special
-                .get(&Site { sector: 0, ..site })
-                .map(|stencil| stencil.rotated(self.fan, site.sector as i64))
-        } else {
-            special.get(&site).cloned()
+    /// The one rule, if it is the same in all sectors and directions.
+    pub fn line(&self) -> Option<&Line<W>> {
+        match &self.lines {
+            Lines::Alike(line) => Some(line),
+            Lines::Sectors(_) => None,
         }
     }
 
-    /// Whether `site` has a stencil of its own in the given pass.
-    pub fn is_special(&self, pass: usize, site: Site) -> bool {
-        let site = if self.symmetric {
-            Site { sector: 0, ..site }
-        } else {
-            site
+    /// Every rule that is in use, with the sector it belongs to.
+    pub fn all_lines(&self) -> impl Iterator<Item = &Line<W>> {
+        let (alike, sectors) = match &self.lines {
+            Lines::Alike(line) => (Some(line), &[][..]),
+            Lines::Sectors(lines) => (None, lines.as_slice()),
         };
-        self.passes[pass].special.contains_key(&site)
+        alike.into_iter().chain(sectors.iter().flatten())
     }
 
-    /// How the given pass makes the point `site` of its target net.
-    ///
-    /// # Errors
-    /// [`Error::AcrossCentre`] if a regular rule reaches into the quadrant opposite to the point's sector, which has no
-    /// meaning unless four sectors meet: such a point needs a special stencil.
-    pub fn stencil(&self, pass: usize, site: Site) -> Result<Stencil<S>, Error> {
-        match self.special(pass, site) {
-            Some(stencil) => Ok(stencil),
-            None => self.passes[pass].tensor_product(self.fan, site),
+    /// How many sectors have rules of their own; `None` if all are alike.
+    pub fn listed_sectors(&self) -> Option<usize> {
+        match &self.lines {
+            Lines::Alike(_) => None,
+            Lines::Sectors(lines) => Some(lines.len()),
         }
     }
 
-    /// Whether the special stencils are what they would be after a reflection in spoke 0: what
-    /// [`Level::mirror`](Level#structfield.mirror) claims, up to `tolerance` in each weight.
-    pub fn is_mirror_symmetric(&self, tolerance: f64, as_f64: impl Fn(S) -> f64) -> bool {
-        let reflected = |pass: usize, site: Site| -> Option<Stencil<S>> {
-            let stencil = self.special(pass, site.mirrored(self.fan))?;
-            let mut image = Stencil::new();
-            for &(source, weight) in stencil.terms() {
-                image.add(source.mirrored(self.fan), weight);
+    /// Target points per source point.
+    pub fn scale(&self) -> i32 {
+        self.all_lines().next().map_or(1, Line::scale)
+    }
+
+    /// The points with a stencil of their own, as listed.
+    pub fn special(&self) -> &BTreeMap<Site, Stencil<W>> {
+        &self.special
+    }
+
+    /// The same with the special stencils that `keep` agrees to.
+    pub(crate) fn retaining(mut self, keep: impl Fn(Site) -> bool) -> Self {
+        self.special.retain(|&site, _| keep(site));
+        self
+    }
+
+    /// The same rules with other weights.
+    pub fn map<T: Clone>(&self, mut f: impl FnMut(&W) -> T) -> Pass<T> {
+        let lines = match &self.lines {
+            Lines::Alike(line) => Lines::Alike(line.map(&mut f)),
+            Lines::Sectors(lines) => {
+                let pairs = lines.iter().map(|[own, next]| [own.map(&mut f), next.map(&mut f)]);
+                Lines::Sectors(pairs.collect())
             }
-            Some(image)
         };
-        self.passes.iter().enumerate().all(|(index, pass)| {
-            pass.special.keys().all(|&site| {
-                let (Some(stencil), Some(image)) = (self.special(index, site), reflected(index, site)) else {
-                    return false;
-                };
-                let mut difference = stencil;
-                for &(source, weight) in image.terms() {
-                    difference.add(source, -weight);
-                }
-                difference
-                    .terms()
-                    .iter()
-                    .all(|&(_, weight)| as_f64(weight).abs() <= tolerance)
-            })
-        })
+        let special = self.special.iter().map(|(&site, stencil)| (site, stencil.map(&mut f)));
+        Pass {
+            from: self.from,
+            to: self.to,
+            lines,
+            special: special.collect(),
+        }
+    }
+
+    /// The farthest target ring that can read a source ring at most `ring`.
+    pub(crate) fn farthest_reader(&self, ring: usize) -> usize {
+        let reach = 2 * ring as i32 + 1;
+        let regular = self.all_lines().map(|line| line.farthest_reader(reach)).max();
+        let special = self.special.keys().map(|site| site.x.max(site.y)).max();
+        (regular.max(special).unwrap_or(0) / 2) as usize
+    }
+
+    /// The sites that the regular rule of `site` reads, by their coordinates in its sector.
+    pub(crate) fn tensor_sources(&self, site: Site) -> impl Iterator<Item = (i32, i32)> {
+        let [own, next] = self.lines(site.sector);
+        let ys: Vec<i32> = next.taps(site.y).map(|(y, _)| y).collect();
+        let xs: Vec<i32> = own.taps(site.x).map(|(x, _)| x).collect();
+        xs.into_iter()
+            .flat_map(move |x| ys.clone().into_iter().map(move |y| (x, y)))
+    }
+
+    /// Where a regular rule of `site` finds the point `(x, y)` of its sector's plane. A point of a spoke that reads straight
+    /// across the centre has two continuations, which agree only where four sectors meet.
+    pub(crate) fn source(fan: Fan, site: Site, x: i32, y: i32) -> Option<Site> {
+        if site.y == 0 && y == 0 && x < 0 && fan != Fan::Closed(4) {
+            return None;
+        }
+        Site::new(fan, site.sector as i64, x, y)
     }
 }

@@ -1,16 +1,32 @@
 //! The number type of rules and closed forms.
 //!
 //! A scheme's weights, its small solves and its patches are written once, over [`Scalar`], and then run with `f64`
-//! (numerics), [`Dual`](crate::Dual) (exact derivatives), intervals (proofs) or both combined. Scalars are deliberately
-//! **not comparable**: an interval cannot always say which of two numbers is larger, so every branch is decided in `f64`
-//! by the caller and passed in.
+//! (numerics), [`Dual`](crate::Dual) (exact derivatives), [`Exact`](crate::Exact) (equalities), intervals (proofs) or
+//! combinations. Scalars are deliberately **not ordered**: an interval cannot always say which of two numbers is larger, so
+//! every branch is decided in `f64` by the caller and passed in. What they can say is whether two of them are known to be
+//! [the same](Same), which is what symmetry and the degree of the regular part are derived from.
 
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
+/// A weight that can tell whether another one is known to be the same number.
+pub trait Same: Clone {
+    /// Whether both are known to be the same number. False says nothing: two enclosures of one number that is not
+    /// representable are not known to be the same.
+    fn same(&self, other: &Self) -> bool;
+}
+
+impl Same for f64 {
+    fn same(&self, other: &Self) -> bool {
+        self == other
+    }
+}
+
 /// A field with square roots and the cosines of rational turns; see the module page for why there is no ordering.
 pub trait Scalar:
-    Copy
+    Same
     + Debug
     + Add<Output = Self>
     + Sub<Output = Self>
@@ -25,6 +41,8 @@ pub trait Scalar:
 
     /// The given double, taken as the exact number it represents.
     fn exact(value: f64) -> Self;
+    /// A rational number of any size, as exactly as the type allows.
+    fn rational(value: &BigRational) -> Self;
 
     /// Square root of a non-negative number.
     fn sqrt(self) -> Self;
@@ -55,6 +73,11 @@ impl Scalar for f64 {
 
     fn exact(value: f64) -> Self {
         value
+    }
+
+    /// The nearest double; infinite beyond the largest.
+    fn rational(value: &BigRational) -> Self {
+        nearest(value)
     }
 
     fn sqrt(self) -> Self {
@@ -88,9 +111,59 @@ impl Scalar for f64 {
     }
 }
 
+/// The double nearest to a rational number, of two equally near ones the even one.
+fn nearest(value: &BigRational) -> f64 {
+    let rough = value.to_f64().unwrap_or(f64::NAN);
+    if !rough.is_finite() {
+        return rough;
+    }
+    // the conversion may be off by one place: compare with the neighbours, exactly
+    let distance = |candidate: f64| {
+        BigRational::from_float(candidate).map(|exact| {
+            let difference = exact - value;
+            if difference < BigRational::from_integer(0.into()) {
+                -difference
+            } else {
+                difference
+            }
+        })
+    };
+    let even = |candidate: f64| candidate.to_bits() & 1;
+    [rough, rough.next_down(), rough.next_up()]
+        .into_iter()
+        .filter_map(|candidate| distance(candidate).map(|distance| (distance, even(candidate), candidate)))
+        .min_by(|a, b| a.0.cmp(&b.0).then(a.1.cmp(&b.1)))
+        .map_or(rough, |(_, _, candidate)| candidate)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn rational_numbers_become_the_nearest_double() {
+        // the standard library reads decimals correctly rounded
+        for text in [
+            "0.1",
+            "0.3333333333333333333333333333",
+            "123456789.123456789123456789",
+            "1e-310",
+            "2.5",
+            "5e-324",
+        ] {
+            let exact: crate::Number = text.parse().unwrap();
+            assert_eq!(exact.value(), text.parse::<f64>().unwrap(), "{text}");
+            assert_eq!(exact.negated().value(), -text.parse::<f64>().unwrap(), "{text}");
+        }
+        for p in -40..40_i64 {
+            for q in 1..40_i64 {
+                assert_eq!(
+                    f64::rational(&BigRational::new(p.into(), q.into())),
+                    p as f64 / q as f64
+                );
+            }
+        }
+    }
 
     #[test]
     fn cosines_are_exact_where_they_are_rational() {

@@ -1,6 +1,7 @@
 //! A scheme: levels of passes around one centre.
 
-use crate::{Error, Fan, Lattice, Level, Net, Numbering, Scalar, Site, refine};
+use crate::{Error, Fan, Lattice, Level, Numbering, Scalar};
+use std::collections::BTreeMap;
 
 /// A subdivision scheme around one extraordinary vertex or face.
 ///
@@ -8,25 +9,76 @@ use crate::{Error, Fan, Lattice, Level, Net, Numbering, Scalar, Site, refine};
 /// its limit level holds, the one that governs continuity.
 #[derive(Clone, Debug)]
 pub struct Scheme<S> {
-    /// What the scheme is, in the words of [`Spec`](crate::Spec).
-    pub name: String,
-    /// The degree of the regular surface in each direction: 3 for bicubic.
-    pub degree: usize,
-    /// The levels before the limit level, the first refinement first; empty for a stationary scheme.
-    pub leading: Vec<Level<S>>,
-    /// All further levels.
-    pub limit: Level<S>,
+    name: String,
+    leading: Vec<Level<S>>,
+    limit: Level<S>,
+    degree: Option<usize>,
 }
 
 impl<S: Scalar> Scheme<S> {
-    /// A scheme whose levels are all the same.
-    pub fn stationary(name: impl Into<String>, degree: usize, level: Level<S>) -> Self {
+    /// A scheme of the given leading levels, the first refinement first, and of its limit level, which has the same fan and
+    /// lattice. The degree of the regular surface is derived from the limit level's lines.
+    pub fn new(name: impl Into<String>, leading: Vec<Level<S>>, limit: Level<S>) -> Self {
+        debug_assert!(
+            leading
+                .iter()
+                .all(|level| level.fan() == limit.fan() && level.lattice() == limit.lattice()),
+            "all levels refine nets of one kind"
+        );
         Scheme {
             name: name.into(),
-            degree,
-            leading: Vec::new(),
-            limit: level,
+            degree: limit.spline_degree(),
+            leading,
+            limit,
         }
+    }
+
+    /// A scheme whose levels are all the same.
+    pub fn stationary(name: impl Into<String>, level: Level<S>) -> Self {
+        Scheme::new(name, Vec::new(), level)
+    }
+
+    /// The same scheme under another name.
+    pub fn named(self, name: impl Into<String>) -> Self {
+        Scheme {
+            name: name.into(),
+            ..self
+        }
+    }
+
+    /// The same scheme with weights of another type. Symmetry and degree are kept: they are facts about the weights, of which
+    /// the images are enclosures or approximations.
+    pub fn map<T: Scalar>(&self, mut f: impl FnMut(&S) -> T) -> Scheme<T> {
+        Scheme {
+            name: self.name.clone(),
+            leading: self.leading.iter().map(|level| level.map(&mut f)).collect(),
+            limit: self.limit.map(&mut f),
+            degree: self.degree,
+        }
+    }
+
+    /// The mask of the regular rules, at half steps: what the degree was derived from; `None` where directions differ.
+    pub fn regular_mask(&self) -> Option<BTreeMap<i32, S>> {
+        self.limit.regular_mask()
+    }
+}
+
+impl<S: Clone> Scheme<S> {
+    /// What the scheme is, in the words of [`Spec`](crate::Spec).
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The degree of the regular surface in each direction, 3 for bicubic: that of the uniform B-splines whose mask the
+    /// composed lines of the limit level are. `None` if they are no such mask; the surface then is not made of polynomial
+    /// patches that this library knows.
+    pub fn degree(&self) -> Option<usize> {
+        self.degree
+    }
+
+    /// The levels before the limit level, the first refinement first; empty for a stationary scheme.
+    pub fn leading(&self) -> &[Level<S>] {
+        &self.leading
     }
 
     /// The rules of refinement `index`, 0 for the first.
@@ -41,7 +93,7 @@ impl<S: Scalar> Scheme<S> {
 
     /// The number of sectors.
     pub fn valence(&self) -> usize {
-        self.limit.fan.sectors()
+        self.limit.fan().sectors()
     }
 
     /// The kind of the control net.
@@ -51,132 +103,27 @@ impl<S: Scalar> Scheme<S> {
 
     /// The control net out to a ring.
     pub fn numbering(&self, rings: usize) -> Numbering {
-        Numbering {
-            fan: self.limit.fan,
-            lattice: self.lattice(),
-            rings,
-        }
+        self.limit.numbering(rings)
     }
 
-    /// The smallest number of rings whose refinement reads no point outside them: the smallest net with a square local
-    /// matrix, which holds all eigenvalues that are not those of regular rings alone.
+    /// See [`Level::closed_rings`], of the limit level.
     ///
     /// # Errors
-    /// Those of [`refine`]; [`Error::NotClosed`] if no ring up to 64 closes.
+    /// Those of [`Level::closed_rings`].
     pub fn closed_rings(&self) -> Result<usize, Error> {
-        // a face net closes with ring 0 at the earliest, a vertex net with ring 1: the centre alone never determines a patch
-        let first = 1 - self.lattice().parity() as usize;
-        // the outermost ring read grows with the ring made, so that iterating it from below ends at the smallest closed one
-        let mut rings = first;
-        while rings <= MAX_CLOSED {
-            let reach = self.reach(rings)?;
-            if reach <= rings {
-                return Ok(rings);
-            }
-            rings = reach;
-        }
-        Err(Error::NotClosed { rings: MAX_CLOSED })
+        self.limit.closed_rings()
     }
 
-    /// The outermost control ring read by refined points of the given ring, or by the centre.
-    fn reach(&self, ring: usize) -> Result<usize, Error> {
-        let sites = self.representatives(ring).into_iter();
-        let sites: Vec<Site> = sites.filter(|s| [0, ring].contains(&s.ring())).collect();
-        let reach = refine(&self.limit, &ReachNet { level: &self.limit }, &sites)?;
-        Ok(reach.into_iter().max().unwrap_or(0))
-    }
-
-    /// The outermost refined ring in whose rule a special stencil takes part (`None` without special stencils): beyond it
-    /// the surface is a regular spline.
+    /// See [`Level::special_rings`], of the limit level.
     ///
     /// # Errors
-    /// Those of [`refine`].
+    /// Those of [`Level::special_rings`].
     pub fn special_rings(&self) -> Result<Option<usize>, Error> {
-        let level = &self.limit;
-        // the marks start with the special points of each pass and spread through the passes after it
-        let mut outermost = None;
-        for first in 0..level.passes.len() {
-            let rest = Level {
-                passes: level.passes[first + 1..].to_vec(),
-                ..level.clone()
-            };
-            // each pass carries a mark one ring further at most
-            let sites = self.representatives(level.passes.len() + 2);
-            let marks = MarkNet { level, pass: first };
-            let marked = if rest.passes.is_empty() {
-                sites.iter().map(|&site| level.is_special(first, site)).collect()
-            } else {
-                refine(&rest, &marks, &sites)?
-            };
-            let rings = sites.iter().zip(marked).filter(|(_, marked)| *marked);
-            outermost = outermost.max(rings.map(|(site, _)| site.ring()).max());
-        }
-        Ok(outermost)
-    }
-
-    /// One site of each orbit under rotation, or every site if there is no symmetry.
-    fn representatives(&self, rings: usize) -> Vec<Site> {
-        let mut sites = self.numbering(rings).sites();
-        sites.retain(|site| !self.limit.symmetric || site.sector == 0);
-        sites
+        self.limit.special_rings()
     }
 
     /// The fan.
     pub fn fan(&self) -> Fan {
-        self.limit.fan
-    }
-}
-
-/// Nets beyond this many rings are not looked at: order 32, the largest there is, closes with 15.
-const MAX_CLOSED: usize = 64;
-
-/// A point's value is the outermost control ring it depends on.
-struct ReachNet<'a, S> {
-    level: &'a Level<S>,
-}
-
-impl<S: Scalar> Net<S> for ReachNet<'_, S> {
-    type Value = usize;
-
-    fn zero(&self) -> usize {
-        0
-    }
-
-    fn control(&self, site: Site) -> Result<usize, Error> {
-        Ok(site.ring())
-    }
-
-    fn orbit(&self, site: Site) -> Site {
-        self.level.orbit(site)
-    }
-
-    fn accumulate(&self, sum: &mut usize, _weight: S, at_orbit: &usize, _site: Site) {
-        *sum = (*sum).max(*at_orbit);
-    }
-}
-
-/// A point's value says whether it depends on a point that the given pass makes by a special stencil.
-struct MarkNet<'a, S> {
-    level: &'a Level<S>,
-    pass: usize,
-}
-
-impl<S: Scalar> Net<S> for MarkNet<'_, S> {
-    type Value = bool;
-
-    fn zero(&self) -> bool {
-        false
-    }
-
-    fn control(&self, site: Site) -> Result<bool, Error> {
-        Ok(self.level.is_special(self.pass, site))
-    }
-
-    fn orbit(&self, site: Site) -> Site {
-        self.level.orbit(site)
-    }
-
-    fn accumulate(&self, sum: &mut bool, _weight: S, at_orbit: &bool, _site: Site) {
-        *sum |= *at_orbit;
+        self.limit.fan()
     }
 }

@@ -16,24 +16,46 @@
 //!
 //! Ring `r` of a vertex net is `max(a, b) = r`, the centre being ring 0; R rings hold `1 + N R (R+1)` points. Ring `r` of
 //! a face net is `max(a, b) = r`; rings 0 to R hold `N (R+1)^2` points.
+//!
+//! Around a centre on a boundary, or on one side of a crease, N sectors form an **open** fan with spokes 0 to N. The last
+//! spoke belongs to no sector of faces; its points have the sector N and `y = 0`, and R rings hold R points more.
 
 /// How the sectors around a centre are joined.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Fan {
     /// `n` sectors around an interior vertex or face: sector `n` is sector 0.
     Closed(usize),
+    /// `n` sectors in a row between two spokes that are boundaries or creases.
+    Open(usize),
 }
 
 impl Fan {
     /// The number of sectors.
     pub fn sectors(self) -> usize {
-        let Fan::Closed(n) = self;
-        n
+        match self {
+            Fan::Closed(n) | Fan::Open(n) => n,
+        }
     }
 
-    fn sector(self, index: i64) -> usize {
-        index.rem_euclid(self.sectors() as i64) as usize
+    /// The number of spokes: one more than sectors in an open fan.
+    pub fn spokes(self) -> usize {
+        match self {
+            Fan::Closed(n) => n,
+            Fan::Open(n) => n + 1,
+        }
+    }
+
+    /// Whether the last sector joins the first.
+    pub fn is_closed(self) -> bool {
+        matches!(self, Fan::Closed(_))
+    }
+
+    /// The sector of an index that may have run past the ends. `None` outside of an open fan.
+    fn sector(self, index: i64) -> Option<usize> {
+        match self {
+            Fan::Closed(n) => Some(index.rem_euclid(n as i64) as usize),
+            Fan::Open(n) => usize::try_from(index).ok().filter(|&sector| sector <= n),
+        }
     }
 }
 
@@ -47,6 +69,14 @@ pub enum Lattice {
 }
 
 impl Lattice {
+    /// The word that users write.
+    pub fn name(self) -> &'static str {
+        match self {
+            Lattice::Vertex => "vertex",
+            Lattice::Face => "face",
+        }
+    }
+
     /// 0 or 1: the parity of the coordinates.
     pub fn parity(self) -> i32 {
         match self {
@@ -71,8 +101,10 @@ impl Site {
     /// The centre of the fan.
     pub const CENTRE: Site = Site { sector: 0, x: 0, y: 0 };
 
-    /// Folds any `(sector, x, y)` into its canonical form. `None` where the plane of the sector has no unique continuation:
-    /// in the quadrant opposite to it (`x < 0, y <= 0`, and its mirror image).
+    /// Folds any `(sector, x, y)` into its canonical form. Both rays that bound the quadrant opposite to the sector are
+    /// reached over the spoke next to them: `(x < 0, 0)` is on spoke `i+2`, `(0, y < 0)` on spoke `i-1`. `None` inside that
+    /// quadrant, where the plane of the sector has no unique continuation unless four sectors meet, and outside of an
+    /// open fan.
     pub fn new(fan: Fan, sector: i64, x: i32, y: i32) -> Option<Site> {
         debug_assert!(
             (x - y) % 2 == 0,
@@ -83,13 +115,14 @@ impl Site {
             (1.., 0..) => (sector, x, y),
             (0.., ..0) => (sector - 1, -y, x),
             (..=0, 1..) => (sector + 1, y, -x),
+            (..0, 0) => (sector + 2, -x, 0),
+            (..0, ..0) if fan == Fan::Closed(4) => (sector + 2, -x, -y),
             _ => return None,
         };
-        Some(Site {
-            sector: fan.sector(sector),
-            x,
-            y,
-        })
+        let sector = fan.sector(sector)?;
+        // beyond the last spoke of an open fan there is nothing
+        let exists = y == 0 || sector < fan.sectors();
+        exists.then_some(Site { sector, x, y })
     }
 
     /// The lattice this site belongs to.
@@ -106,46 +139,39 @@ impl Site {
         (self.x.max(self.y) / 2) as usize
     }
 
-    /// The same place `sectors` further on.
+    /// The same place `sectors` further on, around a closed fan.
     pub fn rotated(self, fan: Fan, sectors: i64) -> Site {
         if self == Site::CENTRE {
             return self;
         }
+        debug_assert!(fan.is_closed() || sectors == 0, "an open fan has no rotations");
+        let sector = (self.sector as i64 + sectors).rem_euclid(fan.spokes() as i64);
         Site {
-            sector: fan.sector(self.sector as i64 + sectors),
+            sector: sector as usize,
             ..self
         }
     }
 
-    /// The image under reflection in spoke 0.
+    /// The image under the reflection that exchanges spoke `i` with spoke `-i` of a closed fan, `N-i` of an open one.
     pub fn mirrored(self, fan: Fan) -> Site {
-        let sector = -(self.sector as i64);
-        if self.y == 0 {
-            Site {
-                sector: fan.sector(sector),
-                ..self
-            }
-        } else {
-            Site {
-                sector: fan.sector(sector - 1),
+        if self == Site::CENTRE {
+            return self;
+        }
+        let n = fan.sectors();
+        if self.y > 0 {
+            let sector = n - 1 - self.sector;
+            return Site {
+                sector,
                 x: self.y,
                 y: self.x,
-            }
+            };
         }
-    }
-
-    /// The reflection of the sector in itself, which swaps its two spokes: `(x, y)` becomes `(y, x)`, and a point of spoke
-    /// `i` goes to spoke `i+1`, that is, to the next sector.
-    pub fn swapped(self, fan: Fan) -> Site {
-        if self.y == 0 {
-            self.rotated(fan, 1)
+        let sector = if fan.is_closed() {
+            (n - self.sector) % n
         } else {
-            Site {
-                x: self.y,
-                y: self.x,
-                ..self
-            }
-        }
+            n - self.sector
+        };
+        Site { sector, ..self }
     }
 }
 
@@ -189,7 +215,16 @@ impl Numbering {
 
     /// The number of points.
     pub fn count(self) -> usize {
-        self.centre() + self.fan.sectors() * self.sector_points()
+        self.centre() + self.fan.sectors() * self.sector_points() + self.last_spoke(self.rings + 1)
+    }
+
+    /// Points of the last spoke of an open fan in the rings before `ring`.
+    fn last_spoke(self, ring: usize) -> usize {
+        if self.fan.is_closed() {
+            0
+        } else {
+            ring.saturating_sub(1)
+        }
     }
 
     /// The number of points of one sector, centre not counted: the size of a Fourier block with index k != 0.
@@ -219,6 +254,7 @@ impl Numbering {
         Some(
             self.centre()
                 + n * self.sector_points_before(ring)
+                + self.last_spoke(ring)
                 + site.sector * self.ring_width(ring)
                 + Self::along(site),
         )
@@ -230,15 +266,16 @@ impl Numbering {
             .then(|| self.sector_points_before(site.ring()) + Self::along(site))
     }
 
-    /// The sites of one sector, in order, centre not included.
+    /// The sites of one sector, in order, centre not included; of sector N of an open fan those of the last spoke.
     pub fn sector_sites(self, sector: usize) -> impl Iterator<Item = Site> {
         let parity = self.lattice.parity();
+        let spoke_only = sector == self.fan.sectors();
         (0..=self.rings as i32).flat_map(move |ring| {
             let r = 2 * ring + parity;
             let up = (parity..=r).step_by(2).map(move |y| (r, y));
             let back = (1 - parity..ring).rev().map(move |a| (2 * a + parity, r));
             up.chain(back)
-                .filter(|&(x, _)| x > 0)
+                .filter(move |&(x, y)| x > 0 && (y == 0 || !spoke_only))
                 .map(move |(x, y)| Site { sector, x, y })
         })
     }
@@ -246,7 +283,7 @@ impl Numbering {
     /// All sites, in order.
     pub fn sites(self) -> Vec<Site> {
         let mut sites = vec![Site::CENTRE; self.count()];
-        for sector in 0..self.fan.sectors() {
+        for sector in 0..self.fan.spokes() {
             for site in self.sector_sites(sector) {
                 let index = self.index(site).expect("a listed site is on the net");
                 sites[index] = site;
@@ -315,13 +352,46 @@ mod tests {
         assert_eq!(Site::new(fan, 0, -1, 1), Some(site(1, 1, 1)));
         assert_eq!(Site::new(fan, 0, 0, 0), Some(Site::CENTRE));
         assert_eq!(Site::new(fan, 0, -2, -2), None);
-        assert_eq!(Site::new(fan, 0, -2, 0), None);
+        // both rays of the opposite quadrant are reached, each over the spoke next to it
+        assert_eq!(Site::new(fan, 0, -2, 0), Some(site(2, 2, 0)));
+        assert_eq!(Site::new(fan, 0, 0, -2), Some(site(4, 2, 0)));
+    }
+
+    #[test]
+    fn open_fans_end_at_their_last_spoke() {
+        let fan = Fan::Open(3);
+        let site = |sector, x, y| Site { sector, x, y };
+        assert_eq!(Site::new(fan, 2, 0, 4), Some(site(3, 4, 0)));
+        assert_eq!(Site::new(fan, 2, -2, 4), None);
+        assert_eq!(Site::new(fan, 0, 4, -2), None);
+        assert_eq!(Site::new(fan, 1, 4, -2), Some(site(0, 2, 4)));
+        assert_eq!(Site::new(fan, 3, 2, 0), Some(site(3, 2, 0)));
+        for rings in 0..5 {
+            let numbering = Numbering {
+                fan,
+                lattice: Lattice::Vertex,
+                rings,
+            };
+            let sites = numbering.sites();
+            assert_eq!(sites.len(), 1 + 3 * rings * (rings + 1) + rings);
+            for (index, &site) in sites.iter().enumerate() {
+                assert_eq!(numbering.index(site), Some(index), "{site:?}");
+                assert_eq!(site.mirrored(fan).mirrored(fan), site);
+            }
+            if rings > 0 {
+                let fewer = Numbering {
+                    rings: rings - 1,
+                    ..numbering
+                };
+                assert_eq!(fewer.sites(), sites[..fewer.count()]);
+            }
+        }
     }
 
     #[test]
     fn at_valence_four_folding_is_rotation_of_the_plane() {
         let fan = Fan::Closed(4);
-        for (x, y) in [(2, 0), (4, -2), (-2, 4), (1, -3), (-5, 3)] {
+        for (x, y) in [(2, 0), (4, -2), (-2, 4), (1, -3), (-5, 3), (-2, 0), (-4, -2), (-1, -3)] {
             let Site {
                 sector,
                 x: mut px,
@@ -343,7 +413,6 @@ mod tests {
                 assert_eq!(image.mirrored(fan), site);
                 assert_eq!(image.ring(), site.ring());
                 assert!(numbering.index(image).is_some());
-                assert_eq!(site.swapped(fan).swapped(fan).ring(), site.ring());
             }
         }
     }

@@ -5,7 +5,7 @@
 
 use crate::families::{catmull_clark, doo_sabin, tension};
 use crate::lambda::{LambdaTable, Plane, Relaxation};
-use crate::{Error, Scalar, Scheme};
+use crate::{Error, Exact, Scalar, Scheme};
 use std::fmt;
 use std::str::FromStr;
 
@@ -113,31 +113,42 @@ impl Spec {
     ///
     /// # Errors
     /// Those of the family: valence or parameters out of range, a valence that is not tabulated.
-    pub fn scheme<S: Scalar>(&self, valence: usize) -> Result<Scheme<S>, Error> {
+    pub fn scheme<S: Scalar + Copy>(&self, valence: usize) -> Result<Scheme<S>, Error> {
+        if let Some(scheme) = self.closed_form(valence) {
+            return scheme;
+        }
+        let (plane, f2, f3) = self.lambda_point(valence)?;
+        let exact = |value| S::exact(value);
+        let plane = Plane {
+            valence,
+            lambda: exact(plane.lambda),
+            s: exact(plane.s),
+            phi: exact(plane.phi),
+        };
+        plane
+            .stencil(exact(f2), exact(f3))
+            .weights
+            .scheme(self.to_string(), valence)
+    }
+
+    /// The scheme in exact numbers; `None` for the lambda-scheme, whose weights are no [`Exact`] numbers.
+    ///
+    /// # Errors
+    /// As [`Spec::scheme`].
+    pub fn exact(&self, valence: usize) -> Result<Option<Scheme<Exact>>, Error> {
+        self.closed_form(valence).transpose()
+    }
+
+    /// The families whose constructors run in every scalar.
+    fn closed_form<S: Scalar>(&self, valence: usize) -> Option<Result<Scheme<S>, Error>> {
         match *self {
-            Spec::CatmullClark => catmull_clark(valence),
-            Spec::DooSabin => doo_sabin(valence),
+            Spec::CatmullClark => Some(catmull_clark(valence)),
+            Spec::DooSabin => Some(doo_sabin(valence)),
             Spec::Tension { .. } | Spec::DooSabinUniform | Spec::Stam { .. } | Spec::Morin { .. } => {
-                let (order, u0) = self.order_and_tension().unwrap_or((4, 1.0));
-                Ok(Scheme {
-                    name: self.to_string(),
-                    ..tension(valence, order, u0)?
-                })
+                let (order, u0) = self.order_and_tension()?;
+                Some(tension(valence, order, u0).map(|scheme: Scheme<S>| scheme.named(self.to_string())))
             }
-            Spec::LambdaOptimal | Spec::Lambda { .. } => {
-                let (plane, f2, f3) = self.lambda_point(valence)?;
-                let exact = |value| S::exact(value);
-                let plane = Plane {
-                    valence,
-                    lambda: exact(plane.lambda),
-                    s: exact(plane.s),
-                    phi: exact(plane.phi),
-                };
-                plane
-                    .stencil(exact(f2), exact(f3))
-                    .weights
-                    .scheme(self.to_string(), valence)
-            }
+            Spec::LambdaOptimal | Spec::Lambda { .. } => None,
         }
     }
 
@@ -332,12 +343,12 @@ mod tests {
         ] {
             let scheme = |text: &str| text.parse::<Spec>().unwrap().scheme::<f64>(5).unwrap();
             let (named, general) = (scheme(name), scheme(same));
-            assert_eq!(named.name, name);
-            assert_eq!(named.leading.len(), general.leading.len());
-            for index in 0..=named.leading.len() {
-                let pairs = named.level(index).passes.iter().zip(&general.level(index).passes);
+            assert_eq!(named.name(), name);
+            assert_eq!(named.leading().len(), general.leading().len());
+            for index in 0..=named.leading().len() {
+                let pairs = named.level(index).passes().iter().zip(general.level(index).passes());
                 for (a, b) in pairs {
-                    assert!(a.line == b.line && a.special == b.special, "{name}");
+                    assert!(a.line() == b.line() && a.special() == b.special(), "{name}");
                 }
             }
         }
@@ -355,10 +366,10 @@ mod tests {
     #[test]
     fn explicit_weights_need_no_table() {
         let spec: Spec = "lambda:lambda=0.5,f2=0.25,f3=0.25".parse().unwrap();
-        let level = spec.scheme::<f64>(4).unwrap().limit;
+        let level = spec.scheme::<f64>(4).unwrap().limit().clone();
         let reference = crate::families::catmull_clark_weights::<f64>(4);
-        let reference = reference.scheme("reference", 4).unwrap().limit;
-        for &site in reference.passes[0].special.keys() {
+        let reference = reference.scheme("reference", 4).unwrap().limit().clone();
+        for &site in reference.passes()[0].special().keys() {
             let (a, b) = (level.stencil(0, site).unwrap(), reference.stencil(0, site).unwrap());
             for (a, b) in a.terms().iter().zip(b.terms()) {
                 assert!(a.0 == b.0 && (a.1 - b.1).abs() < 1e-15);

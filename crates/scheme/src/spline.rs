@@ -126,7 +126,7 @@ impl Knots {
     /// Values and two derivatives at `x` of the polynomials which the basis functions are on `span`.
     ///
     /// `span` must come from [`Knots::span`], [`Knots::span_before`] or [`Knots::spans`]; then no divisor is zero.
-    pub fn basis<S: Scalar>(&self, span: usize, x: S) -> Basis<S> {
+    pub fn basis<S: Scalar + Copy>(&self, span: usize, x: S) -> Basis<S> {
         debug_assert!(self.values[span] < self.values[span + 1], "span {span} is empty");
         let p = self.degree;
         // lower[q] = the q+1 functions of degree q on the span, the first with index span - q
@@ -157,12 +157,12 @@ impl Knots {
     }
 
     /// Ends of the support of function `i` of degree `q - 1`.
-    fn support<S: Scalar>(&self, i: usize, q: usize) -> (S, S) {
+    fn support<S: Scalar + Copy>(&self, i: usize, q: usize) -> (S, S) {
         (S::exact(self.values[i]), S::exact(self.values[i + q]))
     }
 
     /// From (derivatives of) the degree q-1 functions on the span to the next derivative of the degree q functions.
-    fn raise<S: Scalar>(&self, span: usize, q: usize, below: &[S]) -> Vec<S> {
+    fn raise<S: Scalar + Copy>(&self, span: usize, q: usize, below: &[S]) -> Vec<S> {
         let mut derivatives = vec![S::zero(); q + 1];
         for (k, &value) in below.iter().enumerate() {
             let (left, right): (S, S) = self.support(span + 1 - q + k, q);
@@ -174,7 +174,7 @@ impl Knots {
     }
 }
 
-impl<S: Scalar> Basis<S> {
+impl<S: Scalar + Copy> Basis<S> {
     /// `sum_k weights[k] coefficients[first + k]`, with `weights` one of the arrays of this basis.
     pub fn combine(&self, weights: &[S], coefficients: &[f64]) -> S {
         let mut sum = S::zero();
@@ -234,7 +234,7 @@ impl Spline {
     }
 
     /// The polynomial of one span, at any scalar `x`; see [`Knots::basis`] for the span.
-    pub fn value_in<S: Scalar>(&self, span: usize, x: S) -> S {
+    pub fn value_in<S: Scalar + Copy>(&self, span: usize, x: S) -> S {
         let basis = self.knots.basis(span, x);
         basis.combine(&basis.values, &self.coefficients)
     }

@@ -38,8 +38,9 @@ impl Annulus {
     /// The innermost regular annulus of a scheme's limit level.
     ///
     /// # Errors
-    /// [`Error::Scheme`] if the scheme's rules cannot be run.
-    pub fn new<S: Scalar>(scheme: &Scheme<S>) -> Result<Self, Error> {
+    /// [`Error::NotSpline`] if the regular rules are not those of a uniform B-spline; [`Error::Scheme`] if the scheme's rules
+    /// cannot be run.
+    pub fn new<S: Scalar + Copy>(scheme: &Scheme<S>) -> Result<Self, Error> {
         Annulus::at_least(scheme, 1)
     }
 
@@ -47,9 +48,9 @@ impl Annulus {
     /// as well, and schemes are compared on the same one.
     ///
     /// # Errors
-    /// [`Error::Scheme`] if the scheme's rules cannot be run.
-    pub fn at_least<S: Scalar>(scheme: &Scheme<S>, inner: usize) -> Result<Self, Error> {
-        let degree = scheme.degree;
+    /// As [`Annulus::new`].
+    pub fn at_least<S: Scalar + Copy>(scheme: &Scheme<S>, inner: usize) -> Result<Self, Error> {
+        let degree = scheme.degree().ok_or(Error::NotSpline)?;
         let special = scheme.special_rings()?.unwrap_or(0);
         let inner = inner.max((special + degree / 2) / 2 + 1);
         // the last patch begins at 2m - 1; its last control point is floor(d/2) before it and d after that
@@ -94,7 +95,7 @@ impl Annulus {
     }
 
     /// The patch of a net whose points have the given values.
-    pub fn patch<S: Scalar>(&self, values: &[S], patch: PatchIndex) -> TensorPatch<S> {
+    pub fn patch<S: Scalar + Copy>(&self, values: &[S], patch: PatchIndex) -> TensorPatch<S> {
         TensorPatch {
             degree: self.degree,
             control: self.control(patch).into_iter().map(|index| values[index]).collect(),
@@ -122,7 +123,7 @@ pub struct Jet<S> {
     pub second: [S; 3],
 }
 
-impl<S: Scalar> TensorPatch<S> {
+impl<S: Scalar + Copy> TensorPatch<S> {
     /// Value and derivatives at `(u, v)` in the unit square.
     pub fn jet(&self, u: S, v: S) -> Jet<S> {
         let (in_u, in_v) = (basis(self.degree, u), basis(self.degree, v));
@@ -216,7 +217,7 @@ mod tests {
                     };
                     let control = fine_annulus.control(fine);
                     let wanted: Vec<Site> = control.iter().map(|&index| sites[index]).collect();
-                    let refined = refine(&scheme.limit, &net, &wanted).unwrap();
+                    let refined = refine(scheme.limit(), &net, &wanted).unwrap();
                     let refined = TensorPatch {
                         degree: annulus.degree,
                         control: refined.into_iter().map(|p| p[0]).collect(),
@@ -227,7 +228,7 @@ mod tests {
                     assert!(
                         (found.value - expected.value).abs() < 1e-14,
                         "{} {patch:?}",
-                        scheme.name
+                        scheme.name()
                     );
                     assert!((2.0 * found.first[0] - expected.first[0]).abs() < 1e-12);
                     assert!((4.0 * found.second[1] - expected.second[1]).abs() < 1e-11);

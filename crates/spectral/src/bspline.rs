@@ -9,7 +9,7 @@ use eigenring_scheme::Scalar;
 
 /// The values, first and second derivatives of the d+1 basis functions at `t` in `[0, 1]`: `[values, first, second]`, each
 /// in the order of the control values.
-pub fn basis<S: Scalar>(degree: usize, t: S) -> [Vec<S>; 3] {
+pub fn basis<S: Scalar + Copy>(degree: usize, t: S) -> [Vec<S>; 3] {
     let values = values(degree, t);
     let first = match degree {
         0 => vec![S::zero(); 1],
@@ -22,7 +22,7 @@ pub fn basis<S: Scalar>(degree: usize, t: S) -> [Vec<S>; 3] {
     [values, first, second]
 }
 
-fn values<S: Scalar>(degree: usize, t: S) -> Vec<S> {
+fn values<S: Scalar + Copy>(degree: usize, t: S) -> Vec<S> {
     let mut values = vec![S::one()];
     for d in 1..=degree {
         let whole = |i: usize| S::ratio(i as i64, 1);
@@ -43,7 +43,7 @@ fn values<S: Scalar>(degree: usize, t: S) -> Vec<S> {
 }
 
 /// The derivative of a basis from the basis of one degree less: `N_j' = N_{j-1} - N_j`.
-fn differences<S: Scalar>(lower: &[S]) -> Vec<S> {
+fn differences<S: Scalar + Copy>(lower: &[S]) -> Vec<S> {
     (0..=lower.len())
         .map(|j| {
             let before = if j > 0 { lower[j - 1] } else { S::zero() };
@@ -54,7 +54,7 @@ fn differences<S: Scalar>(lower: &[S]) -> Vec<S> {
 }
 
 /// The matrix from control values to Bernstein coefficients: row i holds the weights of `b_i`.
-pub fn to_bernstein<S: Scalar>(degree: usize) -> Vec<Vec<S>> {
+pub fn to_bernstein<S: Scalar + Copy>(degree: usize) -> Vec<Vec<S>> {
     (0..=degree)
         .map(|i| {
             (0..=degree)
@@ -70,7 +70,7 @@ pub fn to_bernstein<S: Scalar>(degree: usize) -> Vec<Vec<S>> {
 
 /// The blossom of the spline segment at `zeros` zeros and ones for the rest, by de Boor's recursion. Knots are the integers
 /// `1-d .. d`.
-fn blossom<S: Scalar>(mut values: Vec<S>, zeros: usize) -> S {
+fn blossom<S: Scalar + Copy>(mut values: Vec<S>, zeros: usize) -> S {
     let degree = values.len() - 1;
     for round in 1..=degree {
         let argument = if round <= zeros { 0 } else { 1 };

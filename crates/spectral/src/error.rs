@@ -7,6 +7,9 @@ pub enum Error {
     /// The scheme's rules cannot be run on this net.
     #[error(transparent)]
     Scheme(#[from] eigenring_scheme::Error),
+    /// Polynomial patches exist where the regular rules refine uniform B-splines.
+    #[error("the regular rules are not those of a uniform B-spline of any degree: there are no patches to look at")]
+    NotSpline,
     /// Fourier blocks exist for rotation-symmetric rules only.
     #[error("the rules differ from sector to sector: there are no Fourier blocks")]
     NotSymmetric,

@@ -96,7 +96,7 @@ impl Maps {
     /// [`Error::NotSymmetric`] for rules that differ from sector to sector; [`Error::Multiplicity`] or [`Error::Defective`]
     /// where an eigenspace is not what the maps need, [`Error::Scaling`] if a block has no second eigenvalue.
     pub fn on(scheme: &Scheme<f64>, annulus: Annulus) -> Result<Self, Error> {
-        let system = LocalSystem::new(&scheme.limit, annulus.numbering.rings)?;
+        let system = LocalSystem::new(scheme.limit(), annulus.numbering.rings)?;
         if !system.symmetric() {
             return Err(Error::NotSymmetric);
         }
@@ -266,9 +266,9 @@ mod tests {
                     numbering,
                     points: values.iter().map(|&v| [v]).collect(),
                 };
-                let refined = eigenring_scheme::refine(&scheme.limit, &net, &numbering.sites()).unwrap();
+                let refined = eigenring_scheme::refine(scheme.limit(), &net, &numbering.sites()).unwrap();
                 for (refined, value) in refined.iter().zip(values) {
-                    assert!((refined[0] - factor * value).abs() < 1e-11, "{}", scheme.name);
+                    assert!((refined[0] - factor * value).abs() < 1e-11, "{}", scheme.name());
                 }
             }
         }
@@ -279,7 +279,7 @@ mod tests {
         for valence in 3..=12 {
             for scheme in [catmull_clark::<f64>(valence).unwrap(), doo_sabin(valence).unwrap()] {
                 let annulus = Annulus::new(&scheme).unwrap();
-                let system = LocalSystem::new(&scheme.limit, annulus.numbering.rings).unwrap();
+                let system = LocalSystem::new(scheme.limit(), annulus.numbering.rings).unwrap();
                 let lambda = system.blocks()[1].eigenvalues().unwrap()[0].value.0;
                 let mode = system.single(1, lambda).unwrap();
                 for (patch, u, v) in points(&annulus) {

@@ -80,7 +80,7 @@ pub enum Block<S> {
     Complex(Matrix<Complex<S>>),
 }
 
-impl<S: Scalar> Block<S> {
+impl<S: Scalar + Copy> Block<S> {
     /// The number of rows and columns.
     pub fn size(&self) -> usize {
         match self {
@@ -101,7 +101,7 @@ impl<S: Scalar> Block<S> {
 /// The net of `level` out to `rings`.
 pub fn numbering<S: Scalar>(level: &Level<S>, rings: usize) -> Numbering {
     Numbering {
-        fan: level.fan,
+        fan: level.fan(),
         lattice: level.lattice(),
         rings,
     }
@@ -111,7 +111,7 @@ pub fn numbering<S: Scalar>(level: &Level<S>, rings: usize) -> Numbering {
 ///
 /// # Errors
 /// [`Error::Scheme`] if a refined point of these rings reads a control point beyond them.
-pub fn local_matrix<S: Scalar>(level: &Level<S>, rings: usize) -> Result<Matrix<S>, Error> {
+pub fn local_matrix<S: Scalar + Copy>(level: &Level<S>, rings: usize) -> Result<Matrix<S>, Error> {
     let numbering = numbering(level, rings);
     let rows = refine(level, &DenseNet { numbering }, &numbering.sites())?;
     Ok(Matrix::from_rows(rows, numbering.count()))
@@ -121,7 +121,7 @@ pub fn local_matrix<S: Scalar>(level: &Level<S>, rings: usize) -> Result<Matrix<
 ///
 /// # Errors
 /// [`Error::NotSymmetric`] if the rules differ from sector to sector; otherwise as [`local_matrix`].
-pub fn fourier_block<S: Scalar>(level: &Level<S>, rings: usize, index: usize) -> Result<Block<S>, Error> {
+pub fn fourier_block<S: Scalar + Copy>(level: &Level<S>, rings: usize, index: usize) -> Result<Block<S>, Error> {
     Assembly::new(level, rings)?.block(index)
 }
 
@@ -129,9 +129,9 @@ pub fn fourier_block<S: Scalar>(level: &Level<S>, rings: usize, index: usize) ->
 ///
 /// # Errors
 /// As [`fourier_block`].
-pub fn fourier_blocks<S: Scalar>(level: &Level<S>, rings: usize) -> Result<Vec<Block<S>>, Error> {
+pub fn fourier_blocks<S: Scalar + Copy>(level: &Level<S>, rings: usize) -> Result<Vec<Block<S>>, Error> {
     let assembly = Assembly::new(level, rings)?;
-    (0..=level.fan.sectors() / 2)
+    (0..=level.fan().sectors() / 2)
         .map(|index| assembly.block(index))
         .collect()
 }
@@ -145,12 +145,12 @@ struct Assembly<S> {
     plan: Plan<S>,
 }
 
-impl<S: Scalar> Assembly<S> {
+impl<S: Scalar + Copy> Assembly<S> {
     fn new(level: &Level<S>, rings: usize) -> Result<Self, Error> {
-        if !level.symmetric {
+        if !level.is_rotation_symmetric() {
             return Err(Error::NotSymmetric);
         }
-        let (numbering, mirror) = (numbering(level, rings), level.mirror);
+        let (numbering, mirror) = (numbering(level, rings), level.has_mirror());
         // orbits are the same for all indices, and index 0 has all rows
         let net = FourierNet::<S>::new(numbering, 0, mirror)?;
         let mut orbits: Vec<Site> = net.rows().into_iter().map(|site| net.orbit(site)).collect();
@@ -186,7 +186,7 @@ mod tests {
     use super::*;
     use eigenring_scheme::families::{catmull_clark, doo_sabin, tension};
     use eigenring_scheme::lambda::{Bounds, Domain, Relaxation};
-    use eigenring_scheme::{PointNet, Scheme};
+    use eigenring_scheme::{PointNet, Scheme, Symmetry};
 
     fn times(a: Complex<f64>, b: Complex<f64>) -> Complex<f64> {
         (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
@@ -260,21 +260,18 @@ mod tests {
                 for index in [0, 1, 2, 3, valence / 2, valence - 1] {
                     let index = index % valence;
                     let expected = transformed(&matrix, numbering(level, rings), index);
-                    let plain = Level {
-                        mirror: false,
-                        ..level.clone()
-                    };
+                    let plain = level.clone().with_at_most(Symmetry::Rotation);
                     let complex = fourier_block(&plain, rings, index).unwrap().to_complex();
                     assert!(
                         distance(&complex, &expected) < 1e-14,
                         "{} {valence} {index}",
-                        scheme.name
+                        scheme.name()
                     );
                     // and the real block is the same map in other unknowns
                     let real = fourier_block(level, rings, index).unwrap().to_complex();
                     let basis = basis(numbering(level, rings), index);
                     let error = distance(&product(&complex, &basis), &product(&basis, &real));
-                    assert!(error < 4e-15, "{} {valence} {index}: {error}", scheme.name);
+                    assert!(error < 4e-15, "{} {valence} {index}: {error}", scheme.name());
                 }
             }
         }
@@ -302,6 +299,6 @@ mod tests {
     #[test]
     fn too_few_rings_are_an_error() {
         let scheme = tension::<f64>(5, 8, 1.0).unwrap();
-        assert!(matches!(local_matrix(&scheme.limit, 2), Err(Error::Scheme(_))));
+        assert!(matches!(local_matrix(scheme.limit(), 2), Err(Error::Scheme(_))));
     }
 }

@@ -54,7 +54,7 @@ impl Sufficient {
 /// Those of [`fourier_blocks`]; [`Error::Decomposition`] if an iteration fails.
 pub fn outer(level: &Level<f64>, rings: usize) -> Result<f64, Error> {
     let inner = numbering(level, rings);
-    let (blocks, inner) = if level.symmetric {
+    let (blocks, inner) = if level.is_rotation_symmetric() {
         (fourier_blocks(level, rings + 1)?, inner.sector_points())
     } else {
         (vec![Block::Real(local_matrix(level, rings + 1)?)], inner.count())
@@ -62,7 +62,7 @@ pub fn outer(level: &Level<f64>, rings: usize) -> Result<f64, Error> {
     let mut largest = 0.0_f64;
     for (index, block) in blocks.iter().enumerate() {
         // block 0 of a vertex net begins with the centre
-        let centre = usize::from(level.symmetric && index == 0) * (1 - level.lattice().parity() as usize);
+        let centre = usize::from(level.is_rotation_symmetric() && index == 0) * (1 - level.lattice().parity() as usize);
         for eigenvalue in block.trailing(inner + centre).eigenvalues()? {
             largest = largest.max(modulus(eigenvalue.value));
         }
@@ -115,7 +115,7 @@ mod tests {
             let scheme = tension::<f64>(valence, order, 1.0).unwrap();
             let closed = scheme.closed_rings().unwrap();
             let list = |rings| {
-                let system = LocalSystem::new(&scheme.limit, rings).unwrap();
+                let system = LocalSystem::new(scheme.limit(), rings).unwrap();
                 let eigenvalues = system.eigenvalues().unwrap().eigenvalues;
                 eigenvalues
                     .into_iter()

@@ -140,7 +140,7 @@ mod tests {
             let c = (std::f64::consts::TAU / valence as f64).cos();
             let lambda = (5.0 + c + ((c + 9.0) * (c + 1.0)).sqrt()) / 16.0;
             for rings in 1..=3 {
-                let system = LocalSystem::new(&scheme.limit, rings).unwrap();
+                let system = LocalSystem::new(scheme.limit(), rings).unwrap();
                 let spectrum = system.spectrum().unwrap();
                 let count: usize = spectrum.eigenvalues.iter().map(|e| e.multiplicity).sum();
                 assert_eq!(count, system.numbering().count());
@@ -160,7 +160,7 @@ mod tests {
     fn doo_sabin_has_one_half_and_one_quarter() {
         for valence in 3..12 {
             let scheme = doo_sabin::<f64>(valence).unwrap();
-            let spectrum = LocalSystem::new(&scheme.limit, 0).unwrap().spectrum().unwrap();
+            let spectrum = LocalSystem::new(scheme.limit(), 0).unwrap().spectrum().unwrap();
             for e in &spectrum.eigenvalues {
                 let expected = match e.fourier {
                     Some(0) => 1.0,
@@ -192,7 +192,7 @@ mod tests {
     #[test]
     fn a_defective_eigenvalue_shows_in_its_multiplicities() {
         let scheme = tension::<f64>(3, 3, 1.0).unwrap();
-        let spectrum = LocalSystem::new(&scheme.limit, 1).unwrap().spectrum().unwrap();
+        let spectrum = LocalSystem::new(scheme.limit(), 1).unwrap().spectrum().unwrap();
         // the outer ring has 1/4 in block 0 as well
         assert_eq!(spectrum.subdominant().unwrap().fourier, Some(0));
         let lambda = spectrum.eigenvalues.iter().find(|e| e.fourier == Some(1)).unwrap();

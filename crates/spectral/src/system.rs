@@ -45,7 +45,7 @@ impl LocalSystem {
     /// [`Error::Scheme`] if these rings are not closed under refinement.
     pub fn new(level: &Level<f64>, rings: usize) -> Result<Self, Error> {
         let numbering = numbering(level, rings);
-        if !level.symmetric {
+        if !level.is_rotation_symmetric() {
             let matrix = local_matrix(level, rings)?;
             let row_sum_defect = defect(&matrix);
             return Ok(LocalSystem {
@@ -57,16 +57,16 @@ impl LocalSystem {
         }
         let blocks = fourier_blocks(level, rings)?;
         // a constant net has p = 1 and q = 0 in the unknowns of block 0, and so must have its image
-        let net = FourierNet::<f64>::new(numbering, 0, level.mirror)?;
+        let net = FourierNet::<f64>::new(numbering, 0, level.has_mirror())?;
         let constant: Vec<f64> = net
             .rows()
             .iter()
-            .map(|site| f64::from(!level.mirror || site.x >= site.y))
+            .map(|site| f64::from(!level.has_mirror() || site.x >= site.y))
             .collect();
         let row_sum_defect = defect_at(&blocks[0].to_complex(), &constant);
         Ok(LocalSystem {
             numbering,
-            mirror: level.mirror,
+            mirror: level.has_mirror(),
             blocks,
             row_sum_defect,
         })
@@ -333,7 +333,7 @@ mod tests {
 
     fn dense(scheme: &Scheme<f64>, rings: usize) -> Matrix<f64> {
         let numbering = scheme.numbering(rings);
-        let rows = refine(&scheme.limit, &DenseNet { numbering }, &numbering.sites()).unwrap();
+        let rows = refine(scheme.limit(), &DenseNet { numbering }, &numbering.sites()).unwrap();
         Matrix::from_rows(rows, numbering.count())
     }
 
@@ -380,7 +380,7 @@ mod tests {
                 // around a face one ring more would repeat eigenvalues of the inner rings: see the next test
                 let more = usize::from(scheme.lattice() == Lattice::Vertex);
                 let rings = scheme.closed_rings().unwrap() + more;
-                let system = LocalSystem::new(&scheme.limit, rings).unwrap();
+                let system = LocalSystem::new(scheme.limit(), rings).unwrap();
                 let matrix = dense(&scheme, rings);
                 assert!(system.row_sum_defect() < 1e-15);
                 for k in 0..valence {
@@ -400,7 +400,7 @@ mod tests {
     fn a_resonance_with_the_outer_ring_is_reported_as_defective() {
         // Doo-Sabin's 1/4 of block 2 is also the outer ring's largest eigenvalue; the ring is coupled to the corners
         let scheme = doo_sabin::<f64>(5).unwrap();
-        let system = LocalSystem::new(&scheme.limit, 1).unwrap();
+        let system = LocalSystem::new(scheme.limit(), 1).unwrap();
         let eigenvalues = system.blocks()[2].eigenvalues().unwrap();
         assert!((eigenvalues[0].value.0 - 0.25).abs() < 1e-14 && eigenvalues[0].multiplicity == 2);
         assert!(matches!(
@@ -409,7 +409,7 @@ mod tests {
         ));
         // tension order 3 at valence 3 has it in block 1: lambda = 1/4 is a Jordan block of size 2
         let scheme = tension::<f64>(3, 3, 1.0).unwrap();
-        let system = LocalSystem::new(&scheme.limit, 1).unwrap();
+        let system = LocalSystem::new(scheme.limit(), 1).unwrap();
         let eigenvalues = system.blocks()[1].eigenvalues().unwrap();
         assert!((eigenvalues[0].value.0 - 0.25).abs() < 1e-14 && eigenvalues[0].multiplicity == 2);
         assert!(matches!(
@@ -426,7 +426,7 @@ mod tests {
         let product = |gap: f64| {
             let plane = Plane::new(6, lambda, (0.125 + gap) / (lambda * lambda)).unwrap();
             let scheme = plane.stencil(0.16, 0.05).weights.scheme("lambda", 6).unwrap();
-            let system = LocalSystem::new(&scheme.limit, 5).unwrap();
+            let system = LocalSystem::new(scheme.limit(), 5).unwrap();
             let mode = system.single(2, plane.mu()).unwrap();
             check(&dense(&scheme, 5), &mode);
             mode.product
@@ -439,7 +439,7 @@ mod tests {
         // at the resonance itself the eigenvalue is defective
         let plane = Plane::new(6, lambda, 0.125 / (lambda * lambda)).unwrap();
         let scheme = plane.stencil(0.16, 0.05).weights.scheme("lambda", 6).unwrap();
-        let system = LocalSystem::new(&scheme.limit, 5).unwrap();
+        let system = LocalSystem::new(scheme.limit(), 5).unwrap();
         assert!(matches!(system.single(2, plane.mu()), Err(Error::Defective { .. })));
     }
 
@@ -448,7 +448,7 @@ mod tests {
         // N^2 : 4 : 1 over N (N+5) (Halstead, Kass and DeRose 1993)
         for valence in 3..=20 {
             let scheme = catmull_clark::<f64>(valence).unwrap();
-            let weights = LocalSystem::new(&scheme.limit, 1).unwrap().limit_position().unwrap();
+            let weights = LocalSystem::new(scheme.limit(), 1).unwrap().limit_position().unwrap();
             let n = valence as f64;
             let numbering = scheme.numbering(1);
             for (site, weight) in numbering.sites().into_iter().zip(weights) {
@@ -469,7 +469,7 @@ mod tests {
     fn limit_tangents_are_dual_to_the_natural_configuration() {
         for valence in [3, 4, 5, 8] {
             let scheme = catmull_clark::<f64>(valence).unwrap();
-            let system = LocalSystem::new(&scheme.limit, 2).unwrap();
+            let system = LocalSystem::new(scheme.limit(), 2).unwrap();
             let lambda = system.blocks()[1].eigenvalues().unwrap()[0].value.0;
             let mode = system.single(1, lambda).unwrap();
             let tangents = system.limit_tangents(lambda).unwrap();
@@ -490,7 +490,7 @@ mod tests {
     fn an_imported_matrix_gives_the_same_blocks() {
         for scheme in [catmull_clark::<f64>(5).unwrap(), doo_sabin(6).unwrap()] {
             let rings = scheme.closed_rings().unwrap() + 1;
-            let (system, matrix) = (LocalSystem::new(&scheme.limit, rings).unwrap(), dense(&scheme, rings));
+            let (system, matrix) = (LocalSystem::new(scheme.limit(), rings).unwrap(), dense(&scheme, rings));
             let imported = LocalSystem::from_matrix(&matrix, scheme.valence(), 1e-12).unwrap();
             assert_eq!(imported.numbering(), system.numbering());
             for (a, b) in imported.blocks().iter().zip(system.blocks()) {
@@ -516,7 +516,7 @@ mod tests {
     fn the_double_mode_of_valence_four_is_split_in_echelon_form() {
         // bicubic B-splines: 1/4 is double in block 2, with an edge mode and a face mode
         let scheme = catmull_clark::<f64>(4).unwrap();
-        let system = LocalSystem::new(&scheme.limit, 1).unwrap();
+        let system = LocalSystem::new(scheme.limit(), 1).unwrap();
         let modes = system.modes(2, (0.25, 0.0)).unwrap();
         assert_eq!(modes.len(), 2);
         let at = |mode: &Mode, x, y| mode.values[system.numbering().index(Site { sector: 0, x, y }).unwrap()];

@@ -1,9 +1,9 @@
 //! Fourier blocks and row sums of a scheme with exact weights.
 
-use super::field::{Element, Field, add, enclose, subtract};
-use super::{MAX_SIZE, Poly, Weight};
+use super::field::{Element, Field, add, subtract};
+use super::{MAX_SIZE, Poly};
 use crate::Interval;
-use eigenring_scheme::{Error, Lattice, Level, Net, Numbering, Site, refine};
+use eigenring_scheme::{Error, Exact, Lattice, Level, Net, Numbering, Scalar, Site, refine};
 
 /// Control points of Fourier index `k`, as in [`FourierNet`](eigenring_scheme::FourierNet) without mirror symmetry, over the
 /// cyclotomic field. A value is `None` once a weight without exact value took part.
@@ -28,7 +28,7 @@ impl ExactNet<'_> {
     }
 }
 
-impl Net<Weight> for ExactNet<'_> {
+impl Net<Exact> for ExactNet<'_> {
     type Value = Option<Vec<Element>>;
 
     fn zero(&self) -> Self::Value {
@@ -55,7 +55,7 @@ impl Net<Weight> for ExactNet<'_> {
         Site { sector: 0, ..site }
     }
 
-    fn accumulate(&self, sum: &mut Self::Value, weight: Weight, at_orbit: &Self::Value, site: Site) {
+    fn accumulate(&self, sum: &mut Self::Value, weight: &Exact, at_orbit: &Self::Value, site: Site) {
         if site == Site::CENTRE && self.index != 0 {
             return;
         }
@@ -76,14 +76,14 @@ impl Net<Weight> for ExactNet<'_> {
 
 /// The exact characteristic polynomial of the block of Fourier index `index` on `rings` rings of a level that is the same in
 /// all sectors. `None` if it has more than [`MAX_SIZE`] unknowns, a weight is not exact, or the rings are not closed.
-pub fn block_polynomial(field: &Field, level: &Level<Weight>, rings: usize, index: usize) -> Option<Poly> {
+pub fn block_polynomial(field: &Field, level: &Level<Exact>, rings: usize, index: usize) -> Option<Poly> {
     let numbering = eigenring_spectral::numbering(level, rings);
     let net = ExactNet {
         field,
         numbering,
         index,
     };
-    if net.size() > MAX_SIZE || !level.symmetric {
+    if net.size() > MAX_SIZE || !level.is_rotation_symmetric() {
         return None;
     }
     let rows = refine(level, &net, &net.sites()).ok()?;
@@ -96,7 +96,7 @@ struct SumNet<'a> {
     field: &'a Field,
 }
 
-impl Net<Weight> for SumNet<'_> {
+impl Net<Exact> for SumNet<'_> {
     type Value = Option<Element>;
 
     fn zero(&self) -> Self::Value {
@@ -111,7 +111,7 @@ impl Net<Weight> for SumNet<'_> {
         site
     }
 
-    fn accumulate(&self, sum: &mut Self::Value, weight: Weight, at_orbit: &Self::Value, _site: Site) {
+    fn accumulate(&self, sum: &mut Self::Value, weight: &Exact, at_orbit: &Self::Value, _site: Site) {
         *sum = match (sum.take(), self.field.weight(weight), at_orbit) {
             (Some(sum), Some(weight), Some(value)) => Some(add(&sum, &self.field.times(&weight, value))),
             _ => None,
@@ -121,13 +121,13 @@ impl Net<Weight> for SumNet<'_> {
 
 /// The exact sum of the weights of a refined point, less 1, for each of the given points: whether it is zero, and an enclosure
 /// of it. `None` for a point that a weight without exact value takes part in; nothing at all if the rules cannot be run.
-pub fn row_sum_defect(field: &Field, level: &Level<Weight>, sites: &[Site]) -> Option<Vec<Option<(bool, Interval)>>> {
+pub fn row_sum_defect(field: &Field, level: &Level<Exact>, sites: &[Site]) -> Option<Vec<Option<(bool, Interval)>>> {
     let sums = refine(level, &SumNet { field }, sites).ok()?;
     let defect = |sum: Option<Element>| {
         let defect = subtract(&sum?, &field.integer(1));
         let rough = match defect.as_slice() {
             [] => Interval::point(0.0),
-            [rational] => enclose(rational),
+            [rational] => Interval::rational(rational),
             _ => field.enclose(&defect).0,
         };
         Some((defect.is_empty(), rough))

@@ -1,11 +1,10 @@
 //! Cyclotomic fields.
 
-use super::weight::{Fraction, Weight};
 use crate::Interval;
-use eigenring_scheme::Scalar;
+use eigenring_scheme::{Exact, Scalar};
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{One, ToPrimitive, Zero};
+use num_traits::{One, Zero};
 
 /// `Q(w)` with `w = exp(2 pi i/N)`.
 #[derive(Clone, Debug)]
@@ -67,16 +66,16 @@ impl Field {
     }
 
     /// A stencil weight; `None` if it has no value or its cosine is not of this field.
-    pub fn weight(&self, weight: Weight) -> Option<Element> {
+    pub fn weight(&self, weight: &Exact) -> Option<Element> {
         let parts = weight.parts()?;
-        let rational = self.rational(big(parts.rational));
+        let rational = self.rational(parts.rational.clone());
         let (turn, of) = parts.turn;
         if of == 1 {
             return Some(rational);
         }
         let step = (self.order as i64 % of == 0).then_some(self.order as i64 / of)?;
         let cosine = add(&self.root(turn * step), &self.root(-turn * step));
-        let half = big(parts.cosine) / BigRational::from(BigInt::from(2));
+        let half = &parts.cosine / BigRational::from(BigInt::from(2));
         Some(add(&rational, &scaled(&cosine, &half)))
     }
 
@@ -108,7 +107,7 @@ impl Field {
     pub fn enclose(&self, a: &Element) -> (Interval, Interval) {
         let mut sum = (Interval::point(0.0), Interval::point(0.0));
         for (power, coefficient) in a.iter().enumerate() {
-            let coefficient = enclose(coefficient);
+            let coefficient = <Interval as Scalar>::rational(coefficient);
             let (k, n) = (power as i64, self.order as i64);
             sum.0 += coefficient * <Interval as Scalar>::cos_turn(k, n);
             sum.1 += coefficient * <Interval as Scalar>::sin_turn(k, n);
@@ -143,28 +142,6 @@ pub(super) fn subtract(a: &Element, b: &Element) -> Element {
 /// A rational multiple.
 pub(super) fn scaled(a: &Element, by: &BigRational) -> Element {
     trimmed(a.iter().map(|a| a * by).collect())
-}
-
-/// An enclosure of a rational number.
-pub(super) fn enclose(value: &BigRational) -> Interval {
-    let Some(near) = value.to_f64().filter(|near| near.is_finite()) else {
-        return Interval::ENTIRE;
-    };
-    // the nearest double, or the one beside it: widen until the exact comparison agrees
-    let (mut lo, mut hi) = (near, near);
-    let above = |bound: f64| BigRational::from_float(bound).is_none_or(|bound| bound >= *value);
-    let below = |bound: f64| BigRational::from_float(bound).is_none_or(|bound| bound <= *value);
-    while !below(lo) {
-        lo = lo.next_down();
-    }
-    while !above(hi) {
-        hi = hi.next_up();
-    }
-    Interval::new(lo, hi).unwrap_or(Interval::ENTIRE)
-}
-
-fn big(fraction: Fraction) -> BigRational {
-    BigRational::new(fraction.numerator.into(), fraction.denominator.into())
 }
 
 fn trimmed(mut a: Element) -> Element {

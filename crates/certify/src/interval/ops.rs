@@ -1,7 +1,9 @@
 //! The field operations, roots and powers of intervals, and the scalar of the schemes they make.
 
 use super::{Interval, round, turn};
-use eigenring_scheme::Scalar;
+use eigenring_scheme::{Same, Scalar};
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 impl Add for Interval {
@@ -125,9 +127,32 @@ impl Interval {
     }
 }
 
+impl Same for Interval {
+    /// Two points that are equal; of wider intervals nothing is known.
+    fn same(&self, other: &Self) -> bool {
+        self.is_point() && self == other
+    }
+}
+
 impl Scalar for Interval {
     fn ratio(p: i64, q: i64) -> Self {
         Self::integer(p) / Self::integer(q)
+    }
+
+    fn rational(value: &BigRational) -> Self {
+        let Some(near) = value.to_f64().filter(|near| near.is_finite()) else {
+            return Interval::ENTIRE;
+        };
+        // the nearest double, or one close to it: widen until the exact comparison agrees
+        let (mut lo, mut hi) = (near, near);
+        let exact = BigRational::from_float;
+        while exact(lo).is_some_and(|bound| bound > *value) {
+            lo = lo.next_down();
+        }
+        while exact(hi).is_some_and(|bound| bound < *value) {
+            hi = hi.next_up();
+        }
+        Interval::new(lo, hi).unwrap_or(Interval::ENTIRE)
     }
 
     fn exact(value: f64) -> Self {

@@ -202,7 +202,7 @@ pub(super) fn forms<S: Coefficient>(net: &PlaneNet<S>, heights: &Heights<S>, pat
     result
 }
 
-pub(super) fn cut<S: Scalar>(part: &Vec<Polynomial<S>>) -> Vec<Vec<Polynomial<S>>> {
+pub(super) fn cut<S: Scalar + Copy>(part: &Vec<Polynomial<S>>) -> Vec<Vec<Polynomial<S>>> {
     let mut pieces = vec![Vec::new(); 4];
     for polynomial in part {
         for (piece, quarter) in pieces.iter_mut().zip(polynomial.quarters()) {
@@ -269,7 +269,7 @@ pub fn curvature<S: Enclose>(
 }
 
 impl Sign {
-    pub(super) fn times<S: Scalar>(self, value: S) -> S {
+    pub(super) fn times<S: Scalar + Copy>(self, value: S) -> S {
         match self {
             Sign::Positive => value,
             Sign::Negative => -value,

@@ -18,7 +18,7 @@ pub struct Polynomial<S> {
     coefficients: Vec<S>,
 }
 
-impl<S: Scalar> Polynomial<S> {
+impl<S: Scalar + Copy> Polynomial<S> {
     /// The polynomial of a tensor-product spline patch with `(d+1)^2` control values, from the conversion matrix of its
     /// degree ([`to_bernstein`](eigenring_spectral::bspline::to_bernstein)).
     pub fn from_control(control: &[S], conversion: &[Vec<S>]) -> Self {
@@ -192,7 +192,7 @@ pub struct Scaled<S> {
     pub(super) coefficients: Vec<S>,
 }
 
-impl<S: Scalar> Scaled<S> {
+impl<S: Scalar + Copy> Scaled<S> {
     /// The constant one: products with it raise the degrees.
     pub fn one(degree: [usize; 2]) -> Self {
         let [in_u, in_v] = degree.map(binomials::<S>);
@@ -246,7 +246,7 @@ impl<S: Scalar> Scaled<S> {
 }
 
 /// The sum of values by weights.
-fn combine<S: Scalar>(weights: &[S], values: impl Iterator<Item = S>) -> S {
+fn combine<S: Scalar + Copy>(weights: &[S], values: impl Iterator<Item = S>) -> S {
     let mut sum = S::zero();
     for (&weight, value) in weights.iter().zip(values) {
         sum += weight * value;
@@ -255,7 +255,7 @@ fn combine<S: Scalar>(weights: &[S], values: impl Iterator<Item = S>) -> S {
 }
 
 /// The binomials of a row of Pascal's triangle, by sums: exact up to `2^53` in doubles, and enclosed beyond in intervals.
-fn binomials<S: Scalar>(n: usize) -> Vec<S> {
+fn binomials<S: Scalar + Copy>(n: usize) -> Vec<S> {
     let mut row = vec![S::one()];
     for _ in 0..n {
         for i in (1..row.len()).rev() {
@@ -267,7 +267,7 @@ fn binomials<S: Scalar>(n: usize) -> Vec<S> {
 }
 
 /// The two halves of a univariate polynomial.
-pub(super) fn halves<S: Scalar>(coefficients: &[S]) -> [Vec<S>; 2] {
+pub(super) fn halves<S: Scalar + Copy>(coefficients: &[S]) -> [Vec<S>; 2] {
     let half = S::ratio(1, 2);
     let mut rest = coefficients.to_vec();
     let (mut left, mut right) = (Vec::with_capacity(rest.len()), Vec::with_capacity(rest.len()));
@@ -283,7 +283,7 @@ pub(super) fn halves<S: Scalar>(coefficients: &[S]) -> [Vec<S>; 2] {
     [left, right]
 }
 
-fn value<S: Scalar>(mut coefficients: Vec<S>, t: S) -> S {
+fn value<S: Scalar + Copy>(mut coefficients: Vec<S>, t: S) -> S {
     let rest = S::one() - t;
     for count in (1..coefficients.len()).rev() {
         for i in 0..count {

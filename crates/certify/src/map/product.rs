@@ -17,7 +17,7 @@ use crate::{Centred, Interval};
 use eigenring_scheme::{Dual, Scalar};
 
 /// A scalar that can be the coefficient of a polynomial.
-pub trait Coefficient: Scalar {
+pub trait Coefficient: Scalar + Copy {
     /// The product of two polynomials with coefficients scaled by binomials.
     fn product(a: &Scaled<Self>, b: &Scaled<Self>) -> Scaled<Self> {
         plain(a, b)
@@ -25,10 +25,10 @@ pub trait Coefficient: Scalar {
 }
 
 impl Coefficient for f64 {}
-impl<S: Scalar, const D: usize> Coefficient for Dual<S, D> {}
+impl<S: Scalar + Copy, const D: usize> Coefficient for Dual<S, D> {}
 impl<const D: usize> Coefficient for Centred<D> {}
 
-fn plain<S: Scalar>(a: &Scaled<S>, b: &Scaled<S>) -> Scaled<S> {
+fn plain<S: Scalar + Copy>(a: &Scaled<S>, b: &Scaled<S>) -> Scaled<S> {
     let ([m, n], [p, q]) = (a.degree, b.degree);
     let width = m + p + 1;
     let mut coefficients = vec![S::zero(); width * (n + q + 1)];

@@ -29,17 +29,6 @@ fn positive(value: Centred<1>) -> Status {
     }
 }
 
-/// A conjunction.
-fn all(statuses: impl IntoIterator<Item = Status>) -> Status {
-    statuses
-        .into_iter()
-        .fold(Status::Proven, |all, status| match (all, status) {
-            (Status::Refuted, _) | (_, Status::Refuted) => Status::Refuted,
-            (Status::Proven, status) => status,
-            (all, _) => all,
-        })
-}
-
 /// Numbers that are positive exactly if all eigenvalues other than 1, lambda and mu have a modulus below m, where m is lambda or mu.
 fn gaps(point: &Point, m: Centred<1>) -> Vec<(&'static str, Centred<1>)> {
     let (n, plane) = (point.plane.valence, &point.plane);
@@ -80,7 +69,11 @@ pub fn subdominant(point: &Point) -> Vec<Status> {
         positive(lambda - mu),
     ];
     let below = gaps(point, lambda).into_iter().map(|(_, gap)| positive(gap));
-    let subdominant = all(inside.into_iter().chain(below));
+    // the statement is sufficient for C1: that it fails proves nothing of the surface
+    let subdominant = match inside.into_iter().chain(below).fold(Status::Proven, Status::and) {
+        Status::Refuted => Status::Undecided,
+        status => status,
+    };
     // lambda < 1, so if it leads, everything else but 1 lies inside the unit disc
     let dominant = if subdominant == Status::Proven {
         Status::Proven
@@ -95,8 +88,11 @@ pub fn second_order(point: &Point) -> Vec<Status> {
     let (mu, lambda) = (point.plane.mu(), point.plane.lambda);
     let mut gaps = gaps(point, mu);
     gaps.push(("lambda - mu", lambda - mu));
-    let strict = all(gaps.iter().map(|(_, gap)| positive(*gap)));
-    let bounded = if point.is_bounded() {
+    let strict = gaps
+        .iter()
+        .map(|(_, gap)| positive(*gap))
+        .fold(Status::Proven, Status::and);
+    let bounded = if point.has_square() {
         // mu = lambda^2 by the formula, and others may equal it: only a larger one refutes
         let larger = gaps.iter().any(|(_, gap)| gap.enclosure().certainly_negative());
         match strict {
@@ -128,10 +124,11 @@ pub fn describe(point: &Point, witness: Witness) -> Witness {
 mod tests {
     use super::*;
     use crate::Input;
-    use crate::exact::{Field, Weight, block_polynomial};
+    use crate::exact::{Field, block_polynomial};
     use crate::find;
     use crate::range::{Curve, Problem, point};
     use crate::spectral::{Spectrum, problem_of};
+    use eigenring_scheme::Exact;
     use eigenring_scheme::families::catmull_clark_weights;
     use num_bigint::BigInt;
     use num_rational::BigRational;
@@ -143,9 +140,9 @@ mod tests {
     fn the_second_ring_has_its_four_eigenvalues_in_every_block() {
         for valence in [3, 4, 5, 6, 7, 8, 17] {
             let field = Field::new(valence);
-            let scheme = catmull_clark_weights::<Weight>(valence).scheme("", valence).unwrap();
+            let scheme = catmull_clark_weights::<Exact>(valence).scheme("", valence).unwrap();
             for index in 0..=valence / 2 {
-                let [inner, both] = [1, 2].map(|rings| block_polynomial(&field, &scheme.limit, rings, index).unwrap());
+                let [inner, both] = [1, 2].map(|rings| block_polynomial(&field, scheme.limit(), rings, index).unwrap());
                 let (quotient, remainder) = both.divide(&inner, &field).unwrap();
                 assert!(remainder.is_zero(), "{valence} {index}");
                 assert_eq!(quotient.degree(), 4);

@@ -16,7 +16,7 @@ pub fn characteristic(point: &Point) -> Option<PlaneNet<Centred<1>>> {
     let scheme: Scheme<Centred<1>> = point.stencil.weights.scheme("", plane.valence).ok()?;
     let annulus = Annulus::new(&scheme).ok()?;
     let numbering = annulus.numbering;
-    let Block::Real(block) = fourier_block(&scheme.limit, numbering.rings, 1).ok()? else {
+    let Block::Real(block) = fourier_block(scheme.limit(), numbering.rings, 1).ok()? else {
         return None;
     };
     let gap = plane.lambda - point.f3;

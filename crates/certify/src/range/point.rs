@@ -92,8 +92,15 @@ pub(crate) fn points(problem: &Problem, ends: [f64; 2]) -> Option<Vec<Point>> {
 }
 
 impl Point {
-    /// Whether s is 1 by the formula, so that `mu = lambda^2`.
+    /// Whether all weights have a value on the whole interval: no closed form may divide by zero.
     pub fn is_bounded(&self) -> bool {
+        let weights = self.stencil.weights.named().into_iter().map(|(_, weight)| weight);
+        let all = weights.chain([self.stencil.g1, self.stencil.g2, self.stencil.g3]);
+        all.into_iter().all(|weight| weight.enclosure().is_bounded())
+    }
+
+    /// Whether s is 1 by the formula, so that `mu = lambda^2`.
+    pub fn has_square(&self) -> bool {
         self.branch.term == Term::Bounded && self.branch.addition == Addition::Off
     }
 

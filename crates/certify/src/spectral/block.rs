@@ -1,11 +1,11 @@
-//! Fourier blocks of interval matrices, without the constant vector, and their components.
+//! Fourier blocks of interval matrices, without the constant vector and what no patch depends on, and their components.
 
 use super::MAX_BLOCK;
 use super::graph::components;
 use crate::linear::quotient;
 use crate::{Error, Interval};
-use eigenring_scheme::{Level, Scalar};
-use eigenring_spectral::{Block as Fourier, Matrix, fourier_block, local_matrix, numbering};
+use eigenring_scheme::{Level, Numbering, Site};
+use eigenring_spectral::{Annulus, Block as Fourier, Matrix, fourier_block, local_matrix};
 
 /// One Fourier block.
 #[derive(Clone, Debug)]
@@ -14,37 +14,94 @@ pub struct Block {
     pub index: usize,
     /// How the unknowns of [`Block::matrix`] stand for the points.
     pub place: Place,
-    /// The matrix to be analysed: for index 0 without the constant vector.
+    /// The matrix to be analysed: of the unknowns that patches depend on, for index 0 without the constant vector.
     pub matrix: Matrix<Interval>,
-    /// The row of the unknown that was divided out; empty if none was.
-    pub divided: Vec<Interval>,
+    /// The constant vector, where it was divided out.
+    pub divided: Option<Divided>,
+    /// The unknown of the undivided block that each unknown of the matrix is.
+    pub kept: Vec<usize>,
+    /// The number of unknowns of the undivided block.
+    pub size: usize,
+    /// Whether each unknown of the undivided block belongs to a control point of the annulus.
+    pub visible: Vec<bool>,
+    /// The site that each unknown of the undivided block belongs to.
+    pub sites: Vec<Site>,
     /// The components of the matrix, in an order in which each reads only earlier ones.
     pub components: Vec<Vec<usize>>,
     /// For each component the earlier ones that it reads, directly or not.
     pub reads: Vec<Vec<usize>>,
 }
 
+/// The constant vector and its eigenvalue 1.
+#[derive(Clone, Debug)]
+pub struct Divided {
+    /// The unknown that was divided out, of the undivided block: the first that is 1 in the constant vector.
+    pub pivot: usize,
+    /// Its row, on the unknowns of the matrix.
+    pub row: Vec<Interval>,
+    /// Whether each unknown of the undivided block is 1 in the constant vector; the others are 0 there.
+    pub constant: Vec<bool>,
+}
+
 /// What the unknowns of a block are.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
-    /// The real unknowns of [`FourierNet`](eigenring_scheme::FourierNet) with mirror symmetry. For index 0 the constant
-    /// vector is 1 at the unknowns marked here, and the first is divided out.
-    Real(Option<Vec<bool>>),
+    /// The real unknowns of [`FourierNet`](eigenring_scheme::FourierNet) with mirror symmetry.
+    Real,
     /// Real parts of the values, then imaginary parts: for rules without mirror symmetry. Each eigenvalue of the block comes
     /// with its conjugate, the eigenvalue of the conjugate block.
     Parts,
-    /// The points themselves, without the first: for rules that differ from sector to sector.
+    /// The points themselves: for rules that differ from sector to sector.
     Points,
 }
 
+/// A block as it comes from the rules.
+struct Whole {
+    index: usize,
+    place: Place,
+    matrix: Matrix<Interval>,
+    /// The constant vector, if it belongs to the block.
+    constant: Option<Vec<bool>>,
+    /// The site of each unknown.
+    sites: Vec<Site>,
+}
+
 impl Block {
-    fn new(index: usize, place: Place, divided: Vec<Interval>, matrix: Matrix<Interval>) -> Self {
+    fn new(whole: Whole, visible: Vec<bool>) -> Self {
+        let Whole {
+            index,
+            place,
+            matrix: all,
+            constant,
+            sites,
+        } = whole;
+        // an unknown that no patch depends on, at no level, has no influence on the surface
+        let read = depended_on(&all, &visible);
+        let mut kept: Vec<usize> = (0..all.rows()).filter(|&unknown| read[unknown]).collect();
+        let of_kept = |kept: &[usize]| Matrix::from_fn(kept.len(), kept.len(), |i, j| all[(kept[i], kept[j])]);
+        let position = constant
+            .as_ref()
+            .and_then(|constant| kept.iter().position(|&unknown| constant[unknown]));
+        let (matrix, divided) = match (position, constant) {
+            (Some(position), Some(constant)) => {
+                let ones: Vec<Interval> = kept.iter().map(|&i| Interval::point(f64::from(constant[i]))).collect();
+                let matrix = quotient(&of_kept(&kept), &ones, position);
+                let pivot = kept.remove(position);
+                let row = kept.iter().map(|&unknown| all[(pivot, unknown)]).collect();
+                (matrix, Some(Divided { pivot, row, constant }))
+            }
+            _ => (of_kept(&kept), None),
+        };
         let (components, reads) = components(matrix.rows(), |i, j| !matrix[(i, j)].is_zero());
         Block {
             index,
             place,
             matrix,
             divided,
+            kept,
+            size: all.rows(),
+            visible,
+            sites,
             components,
             reads,
         }
@@ -61,18 +118,53 @@ impl Block {
     /// Whether the unknowns are real ones under mirror symmetry, so that a real eigenvalue is one of the block and not one
     /// of the doubled system.
     pub fn is_real(&self) -> bool {
-        matches!(self.place, Place::Real(_))
+        self.place == Place::Real
+    }
+
+    /// The outermost ring of a component.
+    pub fn ring(&self, component: usize) -> usize {
+        let rings = self.components[component]
+            .iter()
+            .map(|&unknown| self.sites[self.kept[unknown]].ring());
+        rings.max().unwrap_or(0)
     }
 }
 
-/// The blocks of a level on `rings` rings: of index 0 to N/2, or the one dense matrix.
+/// The unknowns that the marked ones depend on, themselves included.
+fn depended_on(matrix: &Matrix<Interval>, marked: &[bool]) -> Vec<bool> {
+    let mut reached = marked.to_vec();
+    let mut open: Vec<usize> = (0..marked.len()).filter(|&unknown| marked[unknown]).collect();
+    while let Some(reader) = open.pop() {
+        for (source, entry) in matrix.row(reader).iter().enumerate() {
+            if !reached[source] && !entry.is_zero() {
+                reached[source] = true;
+                open.push(source);
+            }
+        }
+    }
+    reached
+}
+
+/// The sites of the annulus's control points, in whatever sector.
+fn controls(annulus: &Annulus) -> Vec<Site> {
+    let all = annulus.numbering.sites();
+    let sectors = 0..annulus.numbering.fan.sectors();
+    let patches = sectors.flat_map(|sector| annulus.patches(sector));
+    let mut indices: Vec<usize> = patches.flat_map(|patch| annulus.control(patch)).collect();
+    indices.sort_unstable();
+    indices.dedup();
+    indices.into_iter().map(|index| all[index]).collect()
+}
+
+/// The blocks of a level on the rings of an annulus: of index 0 to N/2, or the one dense matrix.
 ///
 /// # Errors
 /// [`Error::Spectral`] if the rings are not closed, [`Error::Size`] beyond [`MAX_BLOCK`] unknowns.
-pub fn blocks(level: &Level<Interval>, rings: usize) -> Result<Vec<Block>, Error> {
-    let numbering = numbering(level, rings);
-    let size = if level.symmetric {
-        numbering.sector_points() * if level.mirror { 1 } else { 2 }
+pub fn blocks(level: &Level<Interval>, annulus: &Annulus) -> Result<Vec<Block>, Error> {
+    let numbering = annulus.numbering;
+    let symmetric = level.is_rotation_symmetric();
+    let size = if symmetric {
+        numbering.sector_points() * if level.has_mirror() { 1 } else { 2 }
     } else {
         numbering.count()
     };
@@ -82,51 +174,74 @@ pub fn blocks(level: &Level<Interval>, rings: usize) -> Result<Vec<Block>, Error
             maximum: MAX_BLOCK,
         });
     }
-    if !level.symmetric {
-        let whole = local_matrix(level, rings)?;
-        let ones = vec![Interval::one(); whole.rows()];
-        let matrix = quotient(&whole, &ones, 0);
-        return Ok(vec![Block::new(0, Place::Points, whole.row(0).to_vec(), matrix)]);
+    // orbits of the points that are read: a pair of mirror images shares its two unknowns
+    let mut read: Vec<Site> = controls(annulus).into_iter().map(|site| level.orbit(site)).collect();
+    read.sort_unstable();
+    read.dedup();
+    let visible = |sites: &[Site]| {
+        sites
+            .iter()
+            .map(|&site| read.binary_search(&level.orbit(site)).is_ok())
+            .collect()
+    };
+    if !symmetric {
+        let whole = Whole {
+            index: 0,
+            place: Place::Points,
+            matrix: local_matrix(level, numbering.rings)?,
+            constant: Some(vec![true; numbering.count()]),
+            sites: numbering.sites(),
+        };
+        let visible = visible(&whole.sites);
+        return Ok(vec![Block::new(whole, visible)]);
     }
-    let n = level.fan.sectors();
+    let n = numbering.fan.sectors();
     (0..=n / 2)
         .map(|index| {
-            let real = index == 0 || 2 * index == n;
-            let (whole, constant) = match fourier_block(level, rings, index)? {
-                Fourier::Real(matrix) => {
-                    // a constant net has p = 1 and q = 0
-                    let sites = numbering.sector_sites(0).map(|site| site.x >= site.y);
-                    let centre = numbering.count() - n * numbering.sector_points();
-                    (
-                        matrix,
-                        std::iter::repeat_n(true, centre).chain(sites).collect::<Vec<bool>>(),
-                    )
-                }
-                // phases of these indices are 1 and -1
-                Fourier::Complex(matrix) if real => {
-                    let size = matrix.rows();
-                    (matrix.map(|(re, _)| re), vec![true; size])
-                }
-                Fourier::Complex(matrix) => {
-                    let size = matrix.rows();
-                    let whole = Matrix::from_fn(2 * size, 2 * size, |i, j| {
-                        let (re, im) = matrix[(i % size, j % size)];
-                        match (i < size, j < size) {
-                            (true, false) => -im,
-                            (false, true) => im,
-                            _ => re,
-                        }
-                    });
-                    return Ok(Block::new(index, Place::Parts, Vec::new(), whole));
-                }
-            };
-            if index > 0 {
-                return Ok(Block::new(index, Place::Real(None), Vec::new(), whole));
-            }
-            let ones: Vec<Interval> = constant.iter().map(|&one| Interval::point(f64::from(one))).collect();
-            let matrix = quotient(&whole, &ones, 0);
-            let place = Place::Real(Some(constant));
-            Ok(Block::new(0, place, whole.row(0).to_vec(), matrix))
+            let whole = whole_block(level, numbering, index)?;
+            let visible = visible(&whole.sites);
+            Ok(Block::new(whole, visible))
         })
         .collect()
+}
+
+fn whole_block(level: &Level<Interval>, numbering: Numbering, index: usize) -> Result<Whole, Error> {
+    let n = numbering.fan.sectors();
+    let centre = numbering.count() - n * numbering.sector_points();
+    let centre = std::iter::repeat_n(Site::CENTRE, if index == 0 { centre } else { 0 });
+    let sites: Vec<Site> = centre.chain(numbering.sector_sites(0)).collect();
+    let (matrix, place) = match fourier_block(level, numbering.rings, index)? {
+        Fourier::Real(matrix) => (matrix, Place::Real),
+        // phases of these indices are 1 and -1
+        Fourier::Complex(matrix) if index == 0 || 2 * index == n => (matrix.map(|(re, _)| re), Place::Parts),
+        Fourier::Complex(matrix) => {
+            let size = matrix.rows();
+            let doubled = Matrix::from_fn(2 * size, 2 * size, |i, j| {
+                let (re, im) = matrix[(i % size, j % size)];
+                match (i < size, j < size) {
+                    (true, false) => -im,
+                    (false, true) => im,
+                    _ => re,
+                }
+            });
+            let sites = sites.iter().chain(&sites).copied().collect();
+            return Ok(Whole {
+                index,
+                place: Place::Parts,
+                matrix: doubled,
+                constant: None,
+                sites,
+            });
+        }
+    };
+    // in the real unknowns a constant net has p = 1 and q = 0
+    let one = |site: &Site| place == Place::Parts || site.x >= site.y;
+    let constant = (index == 0).then(|| sites.iter().map(one).collect());
+    Ok(Whole {
+        index,
+        place,
+        matrix,
+        constant,
+        sites,
+    })
 }

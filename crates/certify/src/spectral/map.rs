@@ -1,6 +1,7 @@
 //! Eigenvectors on all rings, and the nets they are.
 
-use super::{Block, Entry, Place, Spectrum};
+use super::block::Divided;
+use super::{Block, Entry, Spectrum};
 use crate::Interval;
 use crate::linear::solve;
 use eigenring_scheme::{Complex, Numbering, Scalar, Site};
@@ -9,13 +10,26 @@ use eigenring_spectral::Matrix;
 /// A net in the complex plane: real and imaginary part of each point of the numbering.
 pub type Net = Vec<Complex<Interval>>;
 
-/// The eigenvector of a simple real eigenvalue on all unknowns of its block; `None` if another component of the block that
-/// depends on it was not proven to be free of the eigenvalue.
+/// The eigenvector of a simple real eigenvalue on all unknowns of its block, before the constant vector is put back: on
+/// block 0 it is one modulo constants, 0 at the unknown that was divided out. Unknowns that no patch depends on are 0. `None` if
+/// another component of the block that depends on it was not proven to be free of the eigenvalue.
 ///
 /// On components that do not read the entry's own one the vector is zero; on those that do, in their order, it is the
 /// solution of `(value - S_dd) v_d = sum_e S_de v_e` over the components e before d. `value` may be a sharper enclosure of the
 /// entry's eigenvalue.
-pub fn eigenvector(block: &Block, entry: &Entry, value: Interval) -> Option<Vec<Interval>> {
+pub fn modulo_constants(block: &Block, entry: &Entry, value: Interval) -> Option<Vec<Interval>> {
+    if !block.is_real() {
+        return None;
+    }
+    let reduced = on_kept(block, entry, value)?;
+    let mut vector = vec![Interval::point(0.0); block.size];
+    for (&unknown, x) in block.kept.iter().zip(reduced) {
+        vector[unknown] = x;
+    }
+    Some(vector)
+}
+
+fn on_kept(block: &Block, entry: &Entry, value: Interval) -> Option<Vec<Interval>> {
     let zero = Interval::point(0.0);
     let mut vector = vec![zero; block.matrix.rows()];
     for (&unknown, &x) in block.components[entry.component].iter().zip(entry.vector.as_ref()?) {
@@ -41,32 +55,59 @@ pub fn eigenvector(block: &Block, entry: &Entry, value: Interval) -> Option<Vec<
             vector[unknown] = x;
         }
     }
-    match &block.place {
-        Place::Real(None) => Some(vector),
-        Place::Real(Some(constant)) => {
-            // the constant vector was divided out: S (0, y) = value (0, y) + t c, so that y + t/(value - 1) c is the vector
-            vector.insert(0, zero);
-            let excess: Interval = block.divided.iter().zip(&vector).map(|(&s, &v)| s * v).sum();
-            let gap = value - Interval::point(1.0);
-            if !gap.certainly_nonzero() {
-                return None;
-            }
-            let factor = excess / gap;
-            for (x, &one) in vector.iter_mut().zip(constant) {
-                if one {
-                    *x += factor;
-                }
-            }
-            Some(vector)
+    Some(vector)
+}
+
+/// The eigenvector of a simple real eigenvalue on all unknowns of its block; see [`modulo_constants`]. `None` also if the
+/// constant vector's eigenvalue 1 was not proven to be another one.
+pub fn eigenvector(block: &Block, entry: &Entry, value: Interval) -> Option<Vec<Interval>> {
+    let mut vector = modulo_constants(block, entry, value)?;
+    let Some(divided) = &block.divided else {
+        return Some(vector);
+    };
+    // S (0, y) = value (0, y) + t c, so that y + t/(value - 1) c is the vector
+    let kept = block.kept.iter().map(|&unknown| vector[unknown]);
+    let excess: Interval = divided.row.iter().zip(kept).map(|(&s, v)| s * v).sum();
+    let gap = value - Interval::point(1.0);
+    if !gap.certainly_nonzero() {
+        return None;
+    }
+    let factor = excess / gap;
+    for (x, &one) in vector.iter_mut().zip(&divided.constant) {
+        if one {
+            *x += factor;
         }
-        Place::Parts | Place::Points => None,
+    }
+    Some(vector)
+}
+
+/// Whether the surface sees an eigenvector: whether its control points on the annulus are certainly not all zero, or not all equal
+/// where constants do not count. B-splines are linearly independent, so that its ring of patches is then not zero.
+pub fn is_visible(block: &Block, entry: &Entry) -> bool {
+    let Some(vector) = modulo_constants(block, entry, entry.value.re) else {
+        return false;
+    };
+    let seen = || (0..block.size).filter(|&unknown| block.visible[unknown]);
+    match &block.divided {
+        None => seen().any(|unknown| vector[unknown].certainly_nonzero()),
+        Some(Divided { constant, .. }) => {
+            let first = seen().find(|&unknown| constant[unknown]).map(|unknown| vector[unknown]);
+            seen().any(|unknown| {
+                let expected = if constant[unknown] {
+                    first
+                } else {
+                    Some(Interval::point(0.0))
+                };
+                expected.is_some_and(|expected| vector[unknown].disjoint(expected))
+            })
+        }
     }
 }
 
 /// The net of real unknowns of Fourier index `index`: points of a spoke have the value r, points of the diagonal
 /// `w^{k/2} r`, pairs `w^{k/2} (p + i q)` and `w^{k/2} (p - i q)`, each times `w^{k (sector - turn/2)}`. With `turn = 1` the
 /// first point around a face is real.
-pub fn net<S: Scalar>(numbering: Numbering, index: usize, unknowns: &[S], turn: usize) -> Vec<Complex<S>> {
+pub fn net<S: Scalar + Copy>(numbering: Numbering, index: usize, unknowns: &[S], turn: usize) -> Vec<Complex<S>> {
     let n = numbering.fan.sectors();
     let first = unknowns.len() - numbering.sector_points();
     let half_phases: Vec<Complex<S>> = (0..2 * n)

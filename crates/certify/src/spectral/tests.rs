@@ -25,7 +25,7 @@ fn spectra_agree_with_those_in_doubles() {
         for valence in [3, 4, 5, 6, 9, 12] {
             let found = spectrum(spec, valence);
             let scheme = spec.parse::<Spec>().unwrap().scheme::<f64>(valence).unwrap();
-            let system = LocalSystem::new(&scheme.limit, found.annulus.numbering.rings).unwrap();
+            let system = LocalSystem::new(scheme.limit(), found.annulus.numbering.rings).unwrap();
             for (index, block) in system.blocks().iter().enumerate() {
                 let entries = || found.entries.iter().filter(|entry| entry.index == index);
                 let bounds = found.bounds.iter().filter(|bound| bound.index == index);
@@ -62,7 +62,7 @@ fn eigenvectors_are_those_of_the_modes_and_sharp() {
         for valence in [3, 5, 8] {
             let found = spectrum(spec, valence);
             let scheme = spec.parse::<Spec>().unwrap().scheme::<f64>(valence).unwrap();
-            let system = LocalSystem::new(&scheme.limit, found.annulus.numbering.rings).unwrap();
+            let system = LocalSystem::new(scheme.limit(), found.annulus.numbering.rings).unwrap();
             for index in [0, 1, 2] {
                 let Some(entry) = found
                     .entries

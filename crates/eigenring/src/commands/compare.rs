@@ -66,7 +66,7 @@ impl Arguments {
                     Err(error) => (None, error.to_string()),
                 };
                 // other degrees live on other annuli with other norms
-                let comparable = quality.filter(|quality| scheme.degree == 3 && quality.theta.is_some());
+                let comparable = quality.filter(|quality| scheme.degree() == Some(3) && quality.theta.is_some());
                 table.push(vec![
                     valence.into(),
                     name.as_str().into(),
@@ -94,10 +94,10 @@ const EQUAL: f64 = 1e-9;
 
 /// The smallest weight of a special stencil of the limit level.
 fn hull(scheme: &Scheme<f64>) -> Option<f64> {
-    let passes = &scheme.limit().passes;
+    let passes = scheme.limit().passes();
     let weights = passes
         .iter()
-        .flat_map(|pass| pass.special.values())
+        .flat_map(|pass| pass.special().values())
         .flat_map(|stencil| stencil.terms());
     weights.map(|&(_, weight)| weight).reduce(f64::min)
 }

@@ -79,13 +79,13 @@ impl Arguments {
         }
         let matrix = local_matrix(level, rings)?;
         let bytes = match self.format {
-            MatrixFormat::Mtx => matrix_market(&matrix, numbering, &scheme.name).into_bytes(),
+            MatrixFormat::Mtx => matrix_market(&matrix, numbering, &scheme.name()).into_bytes(),
             MatrixFormat::Npy => npy(&matrix),
             MatrixFormat::Csv => csv(&matrix).into_bytes(),
             MatrixFormat::Json => {
                 let rows: Vec<&[f64]> = (0..count).map(|row| matrix.row(row)).collect();
                 pretty(&json!({
-                    "scheme": scheme.name,
+                    "scheme": scheme.name(),
                     "valence": valence,
                     "rings": rings,
                     "points": points(numbering).json(),

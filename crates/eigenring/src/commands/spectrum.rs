@@ -86,7 +86,7 @@ impl Subject {
             }
         };
         Ok(Subject {
-            name: scheme.name.clone(),
+            name: scheme.name().to_owned(),
             system,
             closed: Some((closed, outer)),
         })

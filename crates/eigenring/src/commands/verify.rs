@@ -7,11 +7,12 @@ use crate::args::{self, Output, Valences};
 use crate::error::Error;
 use crate::files;
 use crate::progress::note;
-use crate::schemes::SchemeArg;
+use crate::schemes::{SchemeArg, read_scheme};
 use clap::{ArgGroup, Args, ValueEnum};
-use eigenring_certify::range::{Curve, Limits, RangeCertificate, prove_range, recheck_range};
-use eigenring_certify::{Certificate, Input, Requirement, Status, certify, recheck};
+use eigenring_certify::range::{Curve, Limits, RangeCertificate, prove_range, recheck_range_text};
+use eigenring_certify::{Certificate, Input, Requirement, Status, certify, recheck_text};
 use eigenring_scheme::Spec;
+use eigenring_scheme::user::Reading;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -38,6 +39,10 @@ pub struct Arguments {
     /// What must be proven
     #[arg(long, value_enum, default_value_t)]
     require: Required,
+    /// Take the weights of a file as they are written: by default sums within 1e-12 of 1, and weights that a symmetry exchanges and
+    /// that differ by no more, are taken for rounded and balanced
+    #[arg(long, conflicts_with_all = ["recheck", "all", "lambda_range"])]
+    exact: bool,
     /// Also store the certificate
     #[arg(short, long, value_name = "FILE", conflicts_with_all = ["recheck", "all"])]
     output: Option<PathBuf>,
@@ -124,8 +129,9 @@ impl Arguments {
             message: "no scheme is given".to_owned(),
             accepted: "--scheme SPEC".to_owned(),
         })?;
-        let input = input(scheme, valence)?;
-        if scheme.scheme(valence)?.degree >= LARGE {
+        let reading = if self.exact { Reading::Exact } else { Reading::Balanced };
+        let input = input(scheme, valence, reading)?;
+        if scheme.scheme(valence)?.degree().is_some_and(|degree| degree >= LARGE) {
             note("patches of high degree have large blocks: this may take minutes");
         }
         let certificate = certify(input, valence)?;
@@ -137,6 +143,12 @@ impl Arguments {
             None,
             report::certificate(&certificate, requirement, self.format.format).as_bytes(),
         )?;
+        if let Some(balanced) = certificate.balanced {
+            note(&format!(
+                "rounded weights were balanced: {} stencils, the largest change is {:e}; --exact takes them as written",
+                balanced.rows, balanced.largest
+            ));
+        }
         let (_, status) = requirement.verdict(&certificate.checks);
         if status == Status::Numerical {
             note("holds for weights that are results of rounding; of the exact scheme nothing is proven");
@@ -244,35 +256,35 @@ fn confirm(path: &Path) -> Result<Confirmation, Error> {
         }),
     };
     let (what, valence, intact) = if is_range {
-        let certificate = RangeCertificate::from_json(&text).map_err(bad)?;
-        accepted(certificate.valence)?;
-        let found = recheck_range(&certificate).map_err(bad)?;
+        accepted(RangeCertificate::from_json(&text).map_err(bad)?.valence)?;
+        let (certificate, found) = recheck_range_text(&text).map_err(bad)?;
         if !found.covered {
             remarks.push("the tiles do not cover the range".to_owned());
         }
         let different = found.differences.iter().map(|(group, [start, end])| {
-            let names = group.checks().join(", ");
+            let names: Vec<&str> = group.statements().iter().map(|statement| statement.name()).collect();
+            let names = names.join(", ");
             format!("{names} on {start}..{end}: not as claimed")
         });
         remarks.extend(different);
         let [start, end] = certificate.lambda;
         (format!("lambda {start}..{end}"), certificate.valence, found.intact)
     } else {
-        let certificate = Certificate::from_json(&text).map_err(bad)?;
-        accepted(certificate.valence)?;
-        let found = recheck(&certificate).map_err(bad)?;
+        accepted(Certificate::from_json(&text).map_err(bad)?.valence)?;
+        let (certificate, found) = recheck_text(&text).map_err(bad)?;
         let word = |status: Option<Status>| status.map_or("absent".to_owned(), |status| status.to_string());
-        let different = found.differences.iter().map(|d| {
-            format!(
+        let different = found.differences.iter().map(|d| match (d.claimed, d.found) {
+            (None, None) => format!("{}: {}", d.name, d.what),
+            (claimed, found) => format!(
                 "{} ({}): claimed {}, found {}",
                 d.name,
                 d.what,
-                word(d.claimed),
-                word(d.found)
-            )
+                word(claimed),
+                word(found)
+            ),
         });
         remarks.extend(different);
-        (certificate.input.name(), certificate.valence, found.intact)
+        (certificate.input.origin(), certificate.valence, found.intact)
     };
     if !intact {
         remarks.insert(0, "changed after it was written: the digest differs".to_owned());
@@ -287,17 +299,18 @@ fn confirm(path: &Path) -> Result<Confirmation, Error> {
 }
 
 /// What is certified of a scheme on the command line: its text or its parameters, exactly as given.
-fn input(scheme: &SchemeArg, valence: usize) -> Result<Input, Error> {
+fn input(scheme: &SchemeArg, valence: usize, reading: Reading) -> Result<Input, Error> {
     match scheme {
         SchemeArg::File(path) => {
             // read as a scheme first, so that mistakes are reported with the file's name
-            scheme.scheme(valence)?;
+            read_scheme(path, reading)?.exact(valence)?;
             let name = path
                 .file_stem()
                 .map_or("scheme".into(), |stem| stem.to_string_lossy().into_owned());
             Ok(Input::Toml {
                 text: files::read(path)?,
                 name,
+                reading,
             })
         }
         SchemeArg::Spec(spec) => match scheme.lambda_point(valence)? {

@@ -44,7 +44,7 @@ impl Subject {
         let scheme = argument.scheme(valence)?;
         Ok(Subject {
             title,
-            name: scheme.name.clone(),
+            name: scheme.name().to_owned(),
             valence,
             scheme,
         })
@@ -92,7 +92,7 @@ pub fn featured(inputs: &Inputs<'_>, valence: usize) -> Result<Vec<Subject>, Err
         let scheme = SchemeArg::Spec(spec).scheme(valence)?;
         Ok(Subject {
             title: format!("{symbol} = {}", four(lambda)),
-            name: scheme.name.clone(),
+            name: scheme.name().to_owned(),
             valence,
             scheme,
         })

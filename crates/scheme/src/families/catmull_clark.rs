@@ -28,10 +28,7 @@ pub fn catmull_clark_weights<S: Scalar>(valence: usize) -> OneRing<S> {
 /// # Errors
 /// [`Error::Valence`] below 3.
 pub fn catmull_clark<S: Scalar>(valence: usize) -> Result<Scheme<S>, Error> {
-    let mut scheme = catmull_clark_weights(valence.max(1)).scheme("catmull-clark", valence)?;
     // edge and face points follow the regular rules, so the surface is regular up to the vertex itself
-    for pass in &mut scheme.limit.passes {
-        pass.special.retain(|&site, _| site == Site::CENTRE);
-    }
-    Ok(scheme)
+    let level = catmull_clark_weights::<S>(valence.max(1)).level_with(valence, |site| site == Site::CENTRE)?;
+    Ok(Scheme::stationary("catmull-clark", level))
 }

@@ -16,7 +16,7 @@
 //! N-gon's true centroid, which is the mask where all faces are quadrilaterals.
 
 use super::doo_sabin::CORNER;
-use crate::{Error, Fan, Lattice, Level, Line, Pass, Scalar, Scheme, Site, Stencil};
+use crate::{Error, Fan, Lattice, Level, Line, Pass, Same, Scalar, Scheme, Site, Stencil};
 
 /// The largest order: the local matrix of order k has about `N k^2 / 4` rows, and nothing beyond degree 31 is of use.
 pub const MAX_ORDER: usize = 32;
@@ -42,13 +42,17 @@ pub fn tension<S: Scalar>(valence: usize, order: usize, u0: f64) -> Result<Schem
     if !(u0.is_finite() && u0 > -1.0) {
         return Err(Error::Tension { tension: u0 });
     }
-    let level = |u| match order % 2 {
-        0 => even(valence, order, u),
-        _ => odd(valence, order, u),
+    let names = match order % 2 {
+        0 => even(valence, order)?,
+        _ => odd(valence, order)?,
+    };
+    let level = |u: S| {
+        let values = Values::new(valence, u);
+        names.map(|name| values.of(*name))
     };
     let (mut leading, mut rough, mut u) = (Vec::new(), u0, S::exact(u0));
     while rough != 1.0 && leading.len() < MAX_LEADING {
-        leading.push(level(u));
+        leading.push(level(u.clone()));
         // the half-angle step has 1 as its attractive fixed point and reaches it, to rounding, in finitely many steps
         let next = ((1.0 + rough) / 2.0).sqrt();
         if next == rough {
@@ -56,73 +60,116 @@ pub fn tension<S: Scalar>(valence: usize, order: usize, u0: f64) -> Result<Schem
         }
         (rough, u) = (next, ((S::one() + u) / S::ratio(2, 1)).sqrt());
     }
-    Ok(Scheme {
-        name: format!("tension:order={order},u0={u0}"),
-        degree: order - 1,
+    Ok(Scheme::new(
+        format!("tension:order={order},u0={u0}"),
         leading,
-        limit: level(S::one()),
-    })
+        level(S::one()),
+    ))
 }
 
-fn even<S: Scalar>(valence: usize, order: usize, u: S) -> Level<S> {
+/// The weights by name: the symmetry of a level over names holds for every tension.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Name {
+    /// A number that does not depend on the tension.
+    Number(i64, i64),
+    /// `1 / (2 (1+u))`: the sides of the first smoothing, the far point of corner cutting.
+    Side,
+    /// `u / (1+u)`: the middle of the first smoothing.
+    Middle,
+    /// `(1+2u) / (2 (1+u))`: the near point of corner cutting.
+    Near,
+    /// Of the first smoothing at a vertex: its own weight, that of each edge neighbour, of each face neighbour.
+    Own,
+    Edge,
+    Face,
+    /// Of corner cutting in the N-gon: the own corner, its two neighbours, each other one.
+    Corner,
+    NextCorner,
+    FarCorner,
+}
+
+impl Same for Name {
+    fn same(&self, other: &Self) -> bool {
+        self == other
+    }
+}
+
+/// What the names stand for at a valence and a tension.
+struct Values<S> {
+    n: i64,
+    u: S,
+}
+
+impl<S: Scalar> Values<S> {
+    fn new(valence: usize, u: S) -> Self {
+        Values { n: valence as i64, u }
+    }
+
+    fn of(&self, name: Name) -> S {
+        let int = |i: i64| S::ratio(i, 1);
+        let (n, u, one) = (self.n, || self.u.clone(), S::one);
+        let square = || (one() + u()) * (one() + u());
+        let scale = || one() / (int(n) * (one() + u()) * (one() + u()));
+        match name {
+            Name::Number(p, q) => S::ratio(p, q),
+            Name::Side => one() / (int(2) * (one() + u())),
+            Name::Middle => u() / (one() + u()),
+            Name::Near => one() - self.of(Name::Side),
+            Name::Own => (int(n - 4) * (one() + int(2) * u()) + int(n) * u() * u()) / (int(n) * square()),
+            Name::Edge => int(8) * u() / (int(n * n) * square()),
+            Name::Face => int(4) / (int(n * n) * square()),
+            Name::Corner => (int(n) * u() * u() + int(2 * n - 4) * u() + one()) * scale(),
+            Name::NextCorner => (one() + int(2) * u()) * scale(),
+            Name::FarCorner => one() * scale(),
+        }
+    }
+}
+
+fn even(valence: usize, order: usize) -> Result<Level<Name>, Error> {
     let fan = Fan::Closed(valence);
     let (edge, face) = (Site { sector: 0, x: 2, y: 0 }, Site { sector: 0, x: 2, y: 2 });
-    let smoothing = |u: S, edge_weight: S, face_weight: S, own: S| {
+    let smoothing = |side: Name, middle: Name, own: Name, edge_weight: Name, face_weight: Name| {
         let stencil = Stencil::new()
             .with(Site::CENTRE, own)
             .with_orbit(fan, edge, edge_weight)
             .with_orbit(fan, face, face_weight);
-        Pass::regular(Lattice::Vertex, Lattice::Vertex, Line::smoothing(u)).with(Site::CENTRE, stencil)
+        let line = Line::new(vec![vec![(-2, side), (0, middle), (2, side)]]);
+        Pass::regular(Lattice::Vertex, Lattice::Vertex, line).with(Site::CENTRE, stencil)
     };
-    let int = |i: i64| S::ratio(i, 1);
-    let (n, one) = (valence as i64, S::one());
-    let square = (one + u) * (one + u);
-    let with_tension = smoothing(
-        u,
-        int(8) * u / (int(n * n) * square),
-        int(4) / (int(n * n) * square),
-        (int(n - 4) * (one + int(2) * u) + int(n) * u * u) / (int(n) * square),
-    );
-    let uniform = smoothing(one, S::ratio(2, n * n), S::ratio(1, n * n), S::ratio(n - 3, n));
-    let mut passes = vec![
-        Pass::regular(Lattice::Vertex, Lattice::Vertex, Line::midpoint()),
-        with_tension,
-    ];
+    let n = valence as i64;
+    let with_tension = smoothing(Name::Side, Name::Middle, Name::Own, Name::Edge, Name::Face);
+    let [quarter, half, one] = [(1, 4), (1, 2), (1, 1)].map(|(p, q)| Name::Number(p, q));
+    let [own, edge_weight, face_weight] = [(n - 3, n), (2, n * n), (1, n * n)].map(|(p, q)| Name::Number(p, q));
+    let uniform = smoothing(quarter, half, own, edge_weight, face_weight);
+    let midpoints = Line::new(vec![vec![(0, one)], vec![(-2, half), (2, half)]]);
+    let mut passes = vec![Pass::regular(Lattice::Vertex, Lattice::Vertex, midpoints), with_tension];
     passes.resize(order / 2, uniform);
-    Level {
-        fan,
-        passes,
-        symmetric: true,
-        mirror: true,
-    }
+    Level::new(fan, passes)
 }
 
-fn odd<S: Scalar>(valence: usize, order: usize, u: S) -> Level<S> {
-    let fan = Fan::Closed(valence);
-    let int = |i: i64| S::ratio(i, 1);
-    let (n, one) = (valence as i64, S::one());
-    let scale = one / (int(n) * (one + u) * (one + u));
+fn odd(valence: usize, order: usize) -> Result<Level<Name>, Error> {
+    let (fan, n) = (Fan::Closed(valence), valence as i64);
     let corner = (0..n).fold(Stencil::new(), |stencil, j| {
         let weight = match j {
-            0 => int(n) * u * u + int(2 * n - 4) * u + one,
-            j if j == 1 || j == n - 1 => one + int(2) * u,
-            _ => one,
+            0 => Name::Corner,
+            j if j == 1 || j == n - 1 => Name::NextCorner,
+            _ => Name::FarCorner,
         };
-        stencil.with(CORNER.rotated(fan, j), weight * scale)
+        stencil.with(CORNER.rotated(fan, j), weight)
     });
-    let mut passes = vec![Pass::regular(Lattice::Face, Lattice::Face, Line::corner_cutting(u)).with(CORNER, corner)];
-    let centroid = Stencil::new().with_orbit(fan, CORNER, S::ratio(1, n));
+    let cutting = Line::new(vec![
+        vec![(1, Name::Near), (-3, Name::Side)],
+        vec![(-1, Name::Near), (3, Name::Side)],
+    ]);
+    let mut passes = vec![Pass::regular(Lattice::Face, Lattice::Face, cutting).with(CORNER, corner)];
+    let centroid = Stencil::new().with_orbit(fan, CORNER, Name::Number(1, n));
+    let half = Name::Number(1, 2);
+    let average = || Line::new(vec![vec![(-1, half), (1, half)]]);
     for _ in 0..(order - 3) / 2 {
-        passes
-            .push(Pass::regular(Lattice::Face, Lattice::Vertex, Line::average()).with(Site::CENTRE, centroid.clone()));
-        passes.push(Pass::regular(Lattice::Vertex, Lattice::Face, Line::average()));
+        passes.push(Pass::regular(Lattice::Face, Lattice::Vertex, average()).with(Site::CENTRE, centroid.clone()));
+        passes.push(Pass::regular(Lattice::Vertex, Lattice::Face, average()));
     }
-    Level {
-        fan,
-        passes,
-        symmetric: true,
-        mirror: true,
-    }
+    Level::new(fan, passes)
 }
 
 #[cfg(test)]
@@ -151,7 +198,7 @@ mod tests {
     #[test]
     fn odd_orders_equal_doo_sabin_at_valence_four_only() {
         for valence in 3..9 {
-            let rows = |scheme: Scheme<f64>| scheme.limit.stencil(0, CORNER).unwrap();
+            let rows = |scheme: Scheme<f64>| scheme.limit().stencil(0, CORNER).unwrap();
             let ours = rows(tension(valence, 3, 1.0).unwrap());
             let original = rows(super::super::doo_sabin(valence).unwrap());
             let distance = ours
@@ -171,8 +218,8 @@ mod tests {
                 for u0 in [0.01, 0.5, 1.0, 2.0, 50.0] {
                     let scheme = tension::<f64>(valence, order, u0).unwrap();
                     let level = scheme.level(0);
-                    for pass in 0..level.passes.len() {
-                        for &site in level.passes[pass].special.keys() {
+                    for pass in 0..level.passes().len() {
+                        for &site in level.passes()[pass].special().keys() {
                             let sum = level.stencil(pass, site).unwrap().sum();
                             assert!((sum - 1.0).abs() < 1e-14);
                         }
@@ -188,8 +235,8 @@ mod tests {
     fn tension_tends_to_one_from_both_sides() {
         for u0 in [-0.999, 0.0, 0.7, 1.0, 50.0, 1e300] {
             let scheme = tension::<f64>(5, 4, u0).unwrap();
-            assert!(scheme.leading.len() < MAX_LEADING, "{u0}: {}", scheme.leading.len());
-            assert_eq!(scheme.leading.is_empty(), u0 == 1.0);
+            assert!(scheme.leading().len() < MAX_LEADING, "{u0}: {}", scheme.leading().len());
+            assert_eq!(scheme.leading().is_empty(), u0 == 1.0);
         }
         for u0 in [-1.0, -3.0, f64::NAN, f64::INFINITY] {
             assert!(matches!(tension::<f64>(5, 4, u0), Err(Error::Tension { .. })));

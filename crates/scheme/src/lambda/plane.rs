@@ -67,7 +67,7 @@ impl Plane<f64> {
     }
 }
 
-impl<S: Scalar> Plane<S> {
+impl<S: Scalar + Copy> Plane<S> {
     /// `cos(2 pi k / N)`.
     pub fn cosine(&self, k: i64) -> S {
         S::cos_turn(k, self.valence as i64)

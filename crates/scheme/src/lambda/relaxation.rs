@@ -141,7 +141,7 @@ impl Relaxation {
     }
 
     /// The formula of one piece of s, at any lambda.
-    pub fn s_on_branch<S: Scalar>(&self, branch: Branch, lambda: S) -> S {
+    pub fn s_on_branch<S: Scalar + Copy>(&self, branch: Branch, lambda: S) -> S {
         let full = S::ratio(1, Self::ADDITION_INVERSE);
         let addition = match branch.addition {
             Addition::Full => full,
@@ -189,7 +189,7 @@ impl Relaxation {
     }
 
     /// Where a term is 1 (Eq. 24).
-    fn lambda_l_of<S: Scalar>(&self, term: Term) -> S {
+    fn lambda_l_of<S: Scalar + Copy>(&self, term: Term) -> S {
         let (one, n) = (S::one(), self.valence as i64);
         let (c1, c2) = (S::cos_turn(1, n), S::cos_turn(2, n));
         match term {
@@ -200,7 +200,7 @@ impl Relaxation {
         }
     }
 
-    fn term<S: Scalar>(&self, term: Term, lambda: S) -> S {
+    fn term<S: Scalar + Copy>(&self, term: Term, lambda: S) -> S {
         match term {
             Term::Bounded => S::one(),
             Term::OuterRings => S::ratio(1, 8) / (lambda * lambda),

@@ -24,7 +24,7 @@
 //! ```toml
 //! kind = "stencils"
 //! name = "doo-sabin-like"
-//! degree = 2                       # of the regular surface
+//! degree = 2                       # of the regular surface; may be left out
 //!
 //! [[valence]]
 //! n = 3
@@ -45,32 +45,57 @@
 //! ```
 //!
 //! A special point given for sector 0 only holds for all sectors; if any is given for another sector, every sector stands for
-//! itself (`symmetric = false`). Decimals are taken as the exact decimal numbers that are written.
+//! itself. Numbers are taken as the exact decimals and fractions that are written, of any length; symmetry and degree are
+//! derived from them. `degree` may be left out; one that is not that of the lines is refused. How weights that a program has
+//! rounded are read is said in [`Reading`].
 
+mod balance;
 mod file;
 
-use crate::{Error, Fan, Lattice, Level, Line, Number, OneRing, Pass, Scalar, Scheme, Site, Stencil};
+pub use balance::Balance;
+
+use crate::{Error, Exact, Fan, Lattice, Level, Line, OneRing, Pass, Scalar, Scheme, Site, Stencil};
 use file::file_error;
+use serde::{Deserialize, Serialize};
+
+/// How the weights of a file are read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Reading {
+    /// Sums within 1e-12 of 1 and weights that a symmetry exchanges and that differ by no more are taken for rounded, and
+    /// balanced: equal weights become their mean, and a point's own weight takes what is missing to 1.
+    #[default]
+    Balanced,
+    /// As written.
+    Exact,
+}
 
 /// A scheme file, read and checked, for the valences it lists.
 #[derive(Clone, Debug)]
 pub struct UserScheme {
     name: String,
-    valences: Vec<(usize, Rules)>,
+    entries: Vec<Entry>,
+}
+
+/// The scheme at one valence.
+#[derive(Clone, Debug)]
+struct Entry {
+    scheme: Scheme<Exact>,
+    balance: Balance,
 }
 
 #[derive(Clone, Debug)]
 enum Rules {
-    OneRing(OneRing<Number>),
-    Passes { degree: usize, passes: Vec<PassRules> },
+    OneRing(OneRing<Exact>),
+    Passes(Vec<PassRules>),
 }
 
 #[derive(Clone, Debug)]
 struct PassRules {
     from: Lattice,
     to: Lattice,
-    line: Vec<Vec<(i32, Number)>>,
-    special: Vec<(Site, Vec<(Site, Number)>)>,
+    line: Vec<Vec<(i32, Exact)>>,
+    special: Vec<(Site, Vec<(Site, Exact)>)>,
 }
 
 impl UserScheme {
@@ -79,19 +104,24 @@ impl UserScheme {
     /// # Errors
     /// [`Error::SchemeFile`], with what is wrong and where. Sums of weights are not checked here: they are a property to be
     /// verified, not a matter of form.
-    pub fn parse(text: &str, default_name: &str) -> Result<Self, Error> {
-        let (name, valences) = file::read(text)?;
-        let scheme = UserScheme {
-            name: name.unwrap_or_else(|| default_name.to_owned()),
-            valences,
+    pub fn parse(text: &str, default_name: &str, reading: Reading) -> Result<Self, Error> {
+        let contents = file::read(text)?;
+        let name = contents.name.unwrap_or_else(|| default_name.to_owned());
+        let entry = |(n, rules): (usize, Rules)| {
+            let at_n = |error: Error| file_error(format!("valence n = {n}: {error}"));
+            let entry = Entry::new(&name, n, rules, reading).map_err(at_n)?;
+            if let (Some(stated), Some(degree)) = (contents.degree, entry.scheme.degree())
+                && stated != degree
+            {
+                return Err(file_error(format!(
+                    "valence n = {n}: degree = {stated} is stated, but the lines refine B-splines of degree {degree}: accepted is degree = {degree}, or none"
+                )));
+            }
+            entry.scheme.closed_rings().map_err(at_n)?;
+            Ok(entry)
         };
-        for &(n, _) in &scheme.valences {
-            scheme
-                .scheme::<f64>(n)?
-                .closed_rings()
-                .map_err(|error| file_error(format!("valence n = {n}: {error}")))?;
-        }
-        Ok(scheme)
+        let entries = contents.valences.into_iter().map(entry).collect::<Result<_, Error>>()?;
+        Ok(UserScheme { name, entries })
     }
 
     /// The name.
@@ -101,7 +131,15 @@ impl UserScheme {
 
     /// The valences with rules, in the order of the file.
     pub fn valences(&self) -> impl Iterator<Item = usize> + '_ {
-        self.valences.iter().map(|&(n, _)| n)
+        self.entries.iter().map(|entry| entry.scheme.valence())
+    }
+
+    /// The scheme around a centre of the given valence, in exact numbers.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchValence`] if the file does not list it.
+    pub fn exact(&self, valence: usize) -> Result<&Scheme<Exact>, Error> {
+        Ok(&self.entry(valence)?.scheme)
     }
 
     /// The scheme around a centre of the given valence.
@@ -109,59 +147,86 @@ impl UserScheme {
     /// # Errors
     /// [`Error::NoSuchValence`] if the file does not list it.
     pub fn scheme<S: Scalar>(&self, valence: usize) -> Result<Scheme<S>, Error> {
-        let Some((_, rules)) = self.valences.iter().find(|&&(n, _)| n == valence) else {
+        let exact = self.exact(valence)?;
+        // numbers of files are rational, and sums and products of such always have a value
+        Ok(exact.map(|weight| weight.to().unwrap_or_else(|| S::exact(f64::NAN))))
+    }
+
+    /// What was balanced at a valence.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchValence`] if the file does not list it.
+    pub fn balance(&self, valence: usize) -> Result<Balance, Error> {
+        Ok(self.entry(valence)?.balance)
+    }
+
+    fn entry(&self, valence: usize) -> Result<&Entry, Error> {
+        let found = self.entries.iter().find(|entry| entry.scheme.valence() == valence);
+        found.ok_or_else(|| {
             let accepted: Vec<String> = self.valences().map(|n| n.to_string()).collect();
-            return Err(Error::NoSuchValence {
+            Error::NoSuchValence {
                 scheme: self.name.clone(),
                 valence,
                 accepted: accepted.join(", "),
-            });
-        };
-        match rules {
-            Rules::OneRing(weights) => weights.map(Number::to::<S>).scheme(self.name.clone(), valence),
-            Rules::Passes { degree, passes } => {
-                Ok(Scheme::stationary(self.name.clone(), *degree, level(valence, passes)))
             }
-        }
+        })
     }
 }
 
-fn level<S: Scalar>(valence: usize, rules: &[PassRules]) -> Level<S> {
-    let symmetric = rules
-        .iter()
-        .flat_map(|pass| &pass.special)
-        .all(|(site, _)| site.sector == 0);
-    let build = |mirror| Level {
-        fan: Fan::Closed(valence),
-        passes: rules.iter().map(pass::<S>).collect(),
-        symmetric,
-        mirror,
-    };
-    let doubles: Level<f64> = Level {
-        fan: Fan::Closed(valence),
-        passes: rules.iter().map(pass::<f64>).collect(),
-        symmetric,
-        mirror: true,
-    };
-    // the weights are exact numbers, so their doubles are equal where they are
-    build(symmetric && doubles.is_mirror_symmetric(0.0, |weight| weight))
+impl Entry {
+    fn new(name: &str, n: usize, rules: Rules, reading: Reading) -> Result<Self, Error> {
+        let fan = Fan::Closed(n);
+        let mut passes = match rules {
+            Rules::Passes(passes) => passes,
+            Rules::OneRing(weights) => {
+                let scheme = weights.scheme(name, n)?;
+                let (scheme, balance) = match reading {
+                    Reading::Exact => (scheme, Balance::default()),
+                    Reading::Balanced => balanced_one_ring(scheme)?,
+                };
+                return Ok(Entry { scheme, balance });
+            }
+        };
+        let balance = match reading {
+            Reading::Balanced => balance::balance(fan, &mut passes),
+            Reading::Exact => Balance::default(),
+        };
+        let passes = passes.into_iter().map(pass).collect();
+        let scheme = Scheme::stationary(name, Level::new(fan, passes)?);
+        Ok(Entry { scheme, balance })
+    }
 }
 
-fn pass<S: Scalar>(rules: &PassRules) -> Pass<S> {
-    let line = rules
-        .line
-        .iter()
-        .map(|taps| taps.iter().map(|&(offset, weight)| (offset, weight.to())).collect())
-        .collect();
-    rules.special.iter().fold(
-        Pass::regular(rules.from, rules.to, Line::new(line)),
-        |pass, (site, terms)| {
-            let stencil = terms.iter().fold(Stencil::new(), |stencil, &(source, weight)| {
-                stencil.with(source, weight.to())
-            });
-            pass.with(*site, stencil)
-        },
-    )
+/// One-ring weights are symmetric by construction; their sums may need balancing.
+fn balanced_one_ring(scheme: Scheme<Exact>) -> Result<(Scheme<Exact>, Balance), Error> {
+    let level = scheme.limit();
+    let rules = |pass: &Pass<Exact>| PassRules {
+        from: pass.from(),
+        to: pass.to(),
+        line: pass.line().map_or(Vec::new(), |line| line.classes().to_vec()),
+        special: pass
+            .special()
+            .iter()
+            .map(|(site, stencil)| (*site, stencil.terms().to_vec()))
+            .collect(),
+    };
+    let mut passes: Vec<PassRules> = level.passes().iter().map(rules).collect();
+    let balance = balance::balance(level.fan(), &mut passes);
+    if balance.rows == 0 {
+        return Ok((scheme, balance));
+    }
+    let level = Level::new(level.fan(), passes.into_iter().map(pass).collect())?;
+    Ok((Scheme::stationary(scheme.name(), level), balance))
+}
+
+fn pass(rules: PassRules) -> Pass<Exact> {
+    let regular = Pass::regular(rules.from, rules.to, Line::new(rules.line));
+    rules.special.into_iter().fold(regular, |pass, (site, terms)| {
+        let stencil = terms
+            .into_iter()
+            .fold(Stencil::new(), |stencil, (source, weight)| stencil.with(source, weight));
+        pass.with(site, stencil)
+    })
 }
 
 #[cfg(test)]
@@ -186,14 +251,14 @@ mod tests {
 
     #[test]
     fn the_one_ring_example_is_catmull_clark_with_another_notation() {
-        let scheme = UserScheme::parse(&example("one-ring"), "x").unwrap();
+        let scheme = UserScheme::parse(&example("one-ring"), "x", Reading::Balanced).unwrap();
         assert_eq!(scheme.name(), "mine");
         let ours = scheme.scheme::<f64>(5).unwrap();
         let reference = catmull_clark_weights::<f64>(5).scheme("reference", 5).unwrap();
-        for &site in reference.limit.passes[0].special.keys() {
+        for &site in reference.limit().passes()[0].special().keys() {
             let (a, b) = (
-                ours.limit.stencil(0, site).unwrap(),
-                reference.limit.stencil(0, site).unwrap(),
+                ours.limit().stencil(0, site).unwrap(),
+                reference.limit().stencil(0, site).unwrap(),
             );
             for (a, b) in a.terms().iter().zip(b.terms()) {
                 assert_eq!(a.0, b.0);
@@ -208,19 +273,22 @@ mod tests {
 
     #[test]
     fn the_stencils_example_is_doo_sabin_at_valence_three() {
-        let scheme = UserScheme::parse(&example("stencils"), "x")
+        let scheme = UserScheme::parse(&example("stencils"), "x", Reading::Balanced)
             .unwrap()
             .scheme::<f64>(3)
             .unwrap();
-        assert!(scheme.limit.symmetric && scheme.limit.mirror);
+        assert_eq!(
+            (scheme.limit().symmetry(), scheme.degree()),
+            (crate::Symmetry::Dihedral, Some(2))
+        );
         let reference = doo_sabin::<f64>(3).unwrap();
         let net = crate::DenseNet {
             numbering: reference.numbering(1),
         };
         let sites = net.numbering.sites();
         let (ours, theirs) = (
-            crate::refine(&scheme.limit, &net, &sites).unwrap(),
-            crate::refine(&reference.limit, &net, &sites).unwrap(),
+            crate::refine(scheme.limit(), &net, &sites).unwrap(),
+            crate::refine(reference.limit(), &net, &sites).unwrap(),
         );
         for (a, b) in ours.iter().flatten().zip(theirs.iter().flatten()) {
             assert!((a - b).abs() < 1e-15);
@@ -230,8 +298,11 @@ mod tests {
     #[test]
     fn a_lopsided_stencil_is_not_mirror_symmetric() {
         let text = example("stencils").replace("sector = -1, weight = \"1/6\"", "sector = -1, weight = \"1/12\"");
-        let scheme = UserScheme::parse(&text, "x").unwrap().scheme::<f64>(3).unwrap();
-        assert!(scheme.limit.symmetric && !scheme.limit.mirror);
+        let scheme = UserScheme::parse(&text, "x", Reading::Balanced)
+            .unwrap()
+            .scheme::<f64>(3)
+            .unwrap();
+        assert_eq!(scheme.limit().symmetry(), crate::Symmetry::Rotation);
     }
 
     #[test]
@@ -254,7 +325,10 @@ mod tests {
             (stencils.replace("degree = 2", "degree = 0"), "degree"),
             (stencils.replace("[3, \"1/4\"]", "[300, \"1/4\"]"), "300"),
         ] {
-            let error = UserScheme::parse(&text, "x").map(|_| ()).unwrap_err().to_string();
+            let error = UserScheme::parse(&text, "x", Reading::Balanced)
+                .map(|_| ())
+                .unwrap_err()
+                .to_string();
             assert!(error.contains(needle), "{needle}: {error}");
             assert!(!error.contains('\n'), "{error}");
         }

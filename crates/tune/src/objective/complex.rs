@@ -10,7 +10,7 @@ pub(super) struct Complex<S> {
     pub im: S,
 }
 
-impl<S: Scalar> Complex<S> {
+impl<S: Scalar + Copy> Complex<S> {
     #[inline(always)]
     pub fn new(re: S, im: S) -> Self {
         Complex { re, im }
@@ -55,7 +55,7 @@ impl<S: Scalar> Complex<S> {
     }
 }
 
-impl<S: Scalar> Add for Complex<S> {
+impl<S: Scalar + Copy> Add for Complex<S> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -63,7 +63,7 @@ impl<S: Scalar> Add for Complex<S> {
     }
 }
 
-impl<S: Scalar> Sub for Complex<S> {
+impl<S: Scalar + Copy> Sub for Complex<S> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -71,7 +71,7 @@ impl<S: Scalar> Sub for Complex<S> {
     }
 }
 
-impl<S: Scalar> Neg for Complex<S> {
+impl<S: Scalar + Copy> Neg for Complex<S> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -79,7 +79,7 @@ impl<S: Scalar> Neg for Complex<S> {
     }
 }
 
-impl<S: Scalar> Mul for Complex<S> {
+impl<S: Scalar + Copy> Mul for Complex<S> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {

@@ -3,7 +3,7 @@
 //! All points run through the same formulas, so the evaluation handles [`WIDTH`] of them in one array; the compiler turns
 //! the arrays into vector registers without any target flag.
 
-use eigenring_scheme::Scalar;
+use eigenring_scheme::{BigRational, Same, Scalar};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// Points per block: what one register of the baseline of x86-64 and of aarch64 holds. Wider blocks have been measured and
@@ -98,7 +98,17 @@ impl SubAssign for Lanes {
     }
 }
 
+impl Same for Lanes {
+    fn same(&self, other: &Self) -> bool {
+        self.0 == other.0
+    }
+}
+
 impl Scalar for Lanes {
+    fn rational(value: &BigRational) -> Self {
+        Lanes([f64::rational(value); WIDTH])
+    }
+
     fn ratio(p: i64, q: i64) -> Self {
         Lanes::splat(f64::ratio(p, q))
     }

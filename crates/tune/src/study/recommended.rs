@@ -60,7 +60,7 @@ pub fn second_ring_convexity(scheme: &Scheme<f64>, lambda: f64) -> Result<f64, e
     if scheme.lattice() != Lattice::Vertex {
         return Err(eigenring_spectral::Error::NotSymmetric);
     }
-    let block = fourier_block(&scheme.limit, 2, 1)?;
+    let block = fourier_block(scheme.limit(), 2, 1)?;
     let space = block.eigenspace((lambda, 0.0), 1)?;
     let [unknowns] = space.right.as_slice() else {
         return Err(eigenring_spectral::Error::Multiplicity {
@@ -70,7 +70,7 @@ pub fn second_ring_convexity(scheme: &Scheme<f64>, lambda: f64) -> Result<f64, e
             expected: 1,
         });
     };
-    let net = FourierNet::<f64>::new(numbering(&scheme.limit, 2), 1, scheme.limit.mirror)?;
+    let net = FourierNet::<f64>::new(numbering(scheme.limit(), 2), 1, scheme.limit().has_mirror())?;
     let at = |a: i32, b: i32| -> Result<[f64; 2], eigenring_spectral::Error> {
         // all corners lie in the closed sector 0; (0, b) is on spoke 1
         let site = Site::new(scheme.fan(), 0, 2 * a, 2 * b).unwrap_or(Site::CENTRE);

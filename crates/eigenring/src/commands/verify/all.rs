@@ -9,7 +9,7 @@ use crate::files;
 use crate::progress::bar;
 use crate::table::{Format, Table};
 use eigenring_certify::range::{Curve, Limits, RangeCertificate, prove_range};
-use eigenring_certify::{Certificate, Input, NAMES, Requirement, Status, certify};
+use eigenring_certify::{Certificate, Input, Requirement, Statement, Status, certify};
 use eigenring_scheme::Spec;
 use eigenring_scheme::lambda::LambdaTable;
 use rayon::prelude::*;
@@ -168,26 +168,49 @@ fn compact(certificate: &impl Serialize) -> Result<String, Error> {
     Ok(text + "\n")
 }
 
+/// The statements about a stationary scheme, in their columns.
+const STATEMENTS: [Statement; 11] = [
+    Statement::RowSums,
+    Statement::Hull,
+    Statement::Dominant,
+    Statement::Subdominant,
+    Statement::Regular,
+    Statement::Injective,
+    Statement::BoundedCurvature,
+    Statement::NonDegenerate,
+    Statement::Strict,
+    Statement::Corner,
+    Statement::Gauss,
+];
+
 /// One line a certificate: the verdicts, the status of each statement, eigenvalue and ratio.
 fn summary(singles: &[Single], certificates: &[Certificate]) -> Table {
     let mut columns = vec!["scheme", "valence", "lambda", "mu_ratio", "jacobian_margin"];
     // the words of the requirements are names of checks too
     columns.extend(["is_c1", "is_bounded", "is_strict"]);
-    columns.extend(NAMES);
+    columns.extend(STATEMENTS.map(Statement::name));
     let mut table = Table::new(columns);
     for (single, certificate) in singles.iter().zip(certificates) {
-        let enclosed = |name: &str| certificate.check(name).and_then(|check| check.enclosure);
+        let enclosed = |statement: Statement| certificate.check(statement).and_then(|check| check.enclosure);
         let mut row = vec![
             single.label.clone().into(),
             single.valence.into(),
-            enclosed("subdominant").map(|value| value.mid()).into(),
-            enclosed("bounded_curvature").map(|value| value.mid()).into(),
-            certificate.check("regular").and_then(|check| check.margin).into(),
+            enclosed(Statement::Subdominant).map(|value| value.mid()).into(),
+            enclosed(Statement::BoundedCurvature).map(|value| value.mid()).into(),
+            certificate
+                .check(Statement::Regular)
+                .and_then(|check| check.margin)
+                .into(),
         ];
         let verdicts = SUMMED_UP.map(|requirement| requirement.verdict(&certificate.checks).1);
         row.extend(verdicts.map(|status| status.to_string().into()));
-        let status = |name: &&str| certificate.check(name).map(|check| check.status.to_string()).into();
-        row.extend(NAMES.iter().map(status));
+        let status = |statement: Statement| {
+            certificate
+                .check(statement)
+                .map(|check| check.status.to_string())
+                .into()
+        };
+        row.extend(STATEMENTS.map(status));
         table.push(row);
     }
     table

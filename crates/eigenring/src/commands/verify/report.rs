@@ -3,7 +3,7 @@
 use super::Confirmation;
 use crate::table::{Format, Table, pretty, short};
 use eigenring_certify::range::{RangeCertificate, Segment};
-use eigenring_certify::{Certificate, Check, Interval, Requirement};
+use eigenring_certify::{Certificate, Check, Interval, Requirement, Statement, Status};
 use serde_json::{Value, json};
 
 fn enclosure(value: Option<Interval>) -> Option<Value> {
@@ -43,6 +43,8 @@ pub fn certificate(certificate: &Certificate, requirement: Requirement, format: 
             "require": requirement.name(),
             "status": status,
             "holds": holds,
+            "degree": certificate.degree,
+            "balanced": certificate.balanced,
             "checks": checks,
         }));
     }
@@ -50,7 +52,7 @@ pub fn certificate(certificate: &Certificate, requirement: Requirement, format: 
     for check in &certificate.checks {
         let remark = check.witness.as_ref().map(|witness| witness.text.clone());
         table.push(vec![
-            check.name.clone().into(),
+            check.name.name().into(),
             check.status.to_string().into(),
             check.margin.into(),
             check.enclosure.map(|value| value.mid()).into(),
@@ -60,7 +62,10 @@ pub fn certificate(certificate: &Certificate, requirement: Requirement, format: 
     let text = table.render(format);
     match format {
         Format::Text => format!(
-            "{scheme}, N = {valence}\n\n{text}\n{} is {status}\n",
+            "{scheme}, N = {valence}{}\n\n{text}\n{} is {status}\n",
+            certificate
+                .degree
+                .map_or(String::new(), |degree| format!(", regular surface of degree {degree}")),
             requirement.name()
         ),
         _ => text,
@@ -68,14 +73,14 @@ pub fn certificate(certificate: &Certificate, requirement: Requirement, format: 
 }
 
 /// The statements of a range certificate.
-const STATEMENTS: [&str; 7] = [
-    "row_sums",
-    "dominant",
-    "subdominant",
-    "regular",
-    "injective",
-    "bounded_curvature",
-    "strict",
+const STATEMENTS: [Statement; 7] = [
+    Statement::RowSums,
+    Statement::Dominant,
+    Statement::Subdominant,
+    Statement::Regular,
+    Statement::Injective,
+    Statement::BoundedCurvature,
+    Statement::Strict,
 ];
 
 fn segments_json(segments: &[Segment]) -> Vec<Value> {
@@ -95,10 +100,10 @@ pub fn range(certificate: &RangeCertificate, requirement: Requirement, format: F
     if format == Format::Json {
         let checks: Vec<Value> = STATEMENTS
             .iter()
-            .map(|name| {
+            .map(|&name| {
                 let segments = certificate.segments(name);
                 let (status, holds) = whole(&segments);
-                json!({ "name": name, "status": status, "holds": holds, "rigorous": status != "undecided",
+                json!({ "name": name, "status": status, "holds": holds, "rigorous": status != Status::Undecided,
                     "segments": segments_json(&segments) })
             })
             .collect();
@@ -115,8 +120,9 @@ pub fn range(certificate: &RangeCertificate, requirement: Requirement, format: F
         }));
     }
     let mut table = Table::new(["statement", "from", "to", "status", "remark"]);
-    let named = |name: &str| (name.to_owned(), certificate.segments(name));
-    let lists = STATEMENTS.iter().map(|name| named(name));
+    let lists = STATEMENTS
+        .iter()
+        .map(|&name| (name.to_string(), certificate.segments(name)));
     for (name, segments) in lists.chain([(format!("= {}", requirement.name()), required.clone())]) {
         for segment in segments {
             table.push(vec![
@@ -147,13 +153,10 @@ pub fn range(certificate: &RangeCertificate, requirement: Requirement, format: F
 }
 
 /// The status of a statement on a whole range: refuted if it is so somewhere, proven if it is so everywhere.
-fn whole(segments: &[Segment]) -> (&'static str, bool) {
-    use eigenring_certify::Status::{Proven, Refuted};
-    if segments.iter().any(|segment| segment.status == Refuted) {
-        return ("refuted", false);
-    }
-    let proven = !segments.is_empty() && segments.iter().all(|segment| segment.status == Proven);
-    (if proven { "proven" } else { "undecided" }, proven)
+fn whole(segments: &[Segment]) -> (Status, bool) {
+    let all = segments.iter().map(|segment| segment.status).reduce(Status::and);
+    let status = all.unwrap_or(Status::Undecided);
+    (status, status == Status::Proven)
 }
 
 /// What checking files again has shown.

@@ -35,7 +35,7 @@ pub(super) struct Row<S> {
     pub(super) product: S,
 }
 
-impl<S: Scalar> Row<S> {
+impl<S: Scalar + Copy> Row<S> {
     pub(super) fn new(plane: &Plane<S>, f3: S) -> Self {
         let (one, mu, phi) = (S::one(), plane.mu(), plane.phi);
         let (g3, h) = plane.g3_and_h(f3);
@@ -75,7 +75,7 @@ impl Row<f64> {
 
 impl Domain {
     /// The plane over another scalar, its numbers taken as the exact ones they represent.
-    fn plane_over<S: Scalar>(&self) -> Plane<S> {
+    fn plane_over<S: Scalar + Copy>(&self) -> Plane<S> {
         Plane {
             valence: self.plane.valence,
             lambda: S::exact(self.plane.lambda),
@@ -86,7 +86,7 @@ impl Domain {
 
     /// `f2 = curve(f3)` over any scalar. Meant for f3 at which the curve exists, see [`Domain::curve`]; elsewhere the root
     /// of a negative number is taken. At N = 4, where f3 is fixed, derivatives along f3 have no meaning.
-    pub fn curve_over<S: Scalar>(&self, curve: Curve, f3: S) -> S {
+    pub fn curve_over<S: Scalar + Copy>(&self, curve: Curve, f3: S) -> S {
         let plane = self.plane_over::<S>();
         let (one, two, mu, kappa) = (S::one(), S::ratio(2, 1), plane.mu(), S::exact(self.margin));
         let row = Row::new(&plane, f3);
