@@ -16,7 +16,11 @@
 
 mod angle;
 mod decimal;
+#[cfg(test)]
+mod extremes;
 mod ops;
+#[cfg(test)]
+pub(crate) mod oracle;
 mod round;
 mod turn;
 
