@@ -1,31 +1,35 @@
 //! Products of polynomials: the inner loops.
 //!
-//! A product of scaled Bernstein forms is a convolution of coefficients. Over intervals its many small operations, each
-//! rounded outwards, would take most of the time of a proof. In midpoint-radius form (Rump 1999, *BIT* 39) it is three
-//! convolutions of doubles. Let u = 2^-53 be the rounding unit and eta = 2^-1074 the smallest double. With `a` in
-//! `m_a +- r_a` and `b` in `m_b +- r_b`, each sum of n products satisfies, for whatever order of summation (Higham 2002,
-//! section 3.1; a product that underflows is off by eta/2 beside its relative error),
+//! A product of scaled Bernstein forms is a convolution of coefficients. Over intervals its many small
+//! operations, each rounded outwards, would take most of the time of a proof. In midpoint-radius form (Rump
+//! 1999, *BIT* 39) it is three convolutions of doubles. Let u = 2^-53 be the rounding unit and eta = 2^-1074
+//! the smallest double. With `a` in `m_a +- r_a` and `b` in `m_b +- r_b`, each sum of n products satisfies,
+//! for whatever order of summation (Higham 2002, section 3.1; a product that underflows is off by eta/2
+//! beside its relative error),
 //!
 //! ```text
 //! | sum a b - fl(sum m_a m_b) |  <=  X + Y + n eta,
 //!     X = sum |m_a| (r_b + g |m_b|),   Y = sum r_a (|m_b| + r_b),   g = n u / (1 - n u).
 //! ```
 //!
-//! The right side, positive terms throughout, is itself computed in doubles, which must not come out below it. With
-//! `h = (n + 2) u` (exact, and above g for `n < 2^26`), `n < 2^20` and fl for each rounded operation, it is
+//! The right side, positive terms throughout, is itself computed in doubles, which must not come out below
+//! it. With `h = (n + 2) u` (exact, and above g for `n < 2^26`), `n < 2^20` and fl for each rounded
+//! operation, it is
 //!
 //! ```text
 //! t_b = fl(r_b + (h |m_b| + eta))  (r_b where m_b = 0),   q_b = fl(|m_b| + r_b),
-//! R = fl(sum |m_a| t_b),   S = fl(sum r_a q_b),   radius = fl((R + S) f + 16 n eta),   f = 1 + 2 (n + 16) u  (exact).
+//! R = fl(sum |m_a| t_b),   S = fl(sum r_a q_b),   radius = fl((R + S) f + 16 n eta),
+//! f = 1 + 2 (n + 16) u  (exact).
 //! ```
 //!
-//! 1. `t_b >= (1 - u)^4 (r_b + g |m_b|)`. Two sums and a product are rounded, and the product may underflow, which loses
-//!    eta/2 beyond `(1 - u)`. Where the total is below 2^-1021 sums of doubles are exact, and the eta that is added makes up
-//!    for that; elsewhere eta/2 is at most `u/2` of it.
+//! 1. `t_b >= (1 - u)^4 (r_b + g |m_b|)`. Two sums and a product are rounded, and the product may underflow,
+//!    which loses eta/2 beyond `(1 - u)`. Where the total is below 2^-1021 sums of doubles are exact, and the
+//!    eta that is added makes up for that; elsewhere eta/2 is at most `u/2` of it.
 //! 2. Each product of R and of S is rounded once and may underflow, and n of them are added:
-//!    `R >= (1 - u)^(n + 4) X - n eta / 2` and `S >= (1 - u)^(n + 1) Y - n eta / 2`. (A sum that underflows is exact.)
-//! 3. Hence `radius >= (1 - u)^(n + 7) f (X + Y) + (1 - u) (16 n eta - f n eta - eta)`. The first factor is at least
-//!    `(1 - (n + 7) u) (1 + 2 (n + 16) u) >= 1`, and what stands behind it is more than `n eta`.
+//!    `R >= (1 - u)^(n + 4) X - n eta / 2` and `S >= (1 - u)^(n + 1) Y - n eta / 2`. (A sum that underflows
+//!    is exact.)
+//! 3. Hence `radius >= (1 - u)^(n + 7) f (X + Y) + (1 - u) (16 n eta - f n eta - eta)`. The first factor is
+//!    at least `(1 - (n + 7) u) (1 + 2 (n + 16) u) >= 1`, and what stands behind it is more than `n eta`.
 //!
 //! Nothing overflows below [`LARGE`]; beyond it the plain product over intervals is taken.
 
@@ -65,14 +69,15 @@ fn plain<S: Scalar>(a: &Scaled<S>, b: &Scaled<S>) -> Scaled<S> {
     }
 }
 
-/// Coefficients beyond this could make a sum of products overflow; the plain product handles them. Below it a product is at
-/// most `6 LARGE^2` (a radius may be twice a magnitude), and `2^20` of them stay below `1e287`.
+/// Coefficients beyond this could make a sum of products overflow; the plain product handles them. Below it a
+/// product is at most `6 LARGE^2` (a radius may be twice a magnitude), and `2^20` of them stay below `1e287`.
 const LARGE: f64 = 1e140;
 
 impl Coefficient for Interval {
     fn product(a: &Scaled<Self>, b: &Scaled<Self>) -> Scaled<Self> {
         let moderate = |f: &Scaled<Self>| f.coefficients.iter().all(|c| c.mag() < LARGE);
-        // each coefficient of the product is a sum of at most so many terms: so few that n u stays far below one
+        // each coefficient of the product is a sum of at most so many terms: so few that n u stays far below
+        // one
         let terms = a.coefficients.len().min(b.coefficients.len());
         if !(moderate(a) && moderate(b) && terms < 1 << 20) {
             return plain(a, b);
@@ -180,8 +185,8 @@ mod tests {
         Ok(())
     }
 
-    /// Where a large coefficient meets a subnormal one and the sum cancels, the rounding of the products is all that is
-    /// left, and a bound of it by multiples of the subnormal numbers underflows.
+    /// Where a large coefficient meets a subnormal one and the sum cancels, the rounding of the products is
+    /// all that is left, and a bound of it by multiples of the subnormal numbers underflows.
     #[test]
     fn products_of_large_and_subnormal_numbers_hold_what_cancels() {
         let mut operands = Operands::new(1);
