@@ -1,7 +1,9 @@
-//! What tests hold intervals against: doubles as exact integers, and the operands at which rounding goes wrong.
+//! What tests hold intervals against: doubles as exact integers, and the operands at which rounding goes
+//! wrong.
 //!
-//! Every double is an integer multiple of the smallest one, `2^-1074`. In these units sums, products and comparisons are
-//! exact in integers, without the common divisors of rational arithmetic, so that a hundred thousand operations are quick.
+//! Every double is an integer multiple of the smallest one, `2^-1074`. In these units sums, products and
+//! comparisons are exact in integers, without the common divisors of rational arithmetic, so that a hundred
+//! thousand operations are quick.
 
 use super::Interval;
 use num_bigint::BigInt;
@@ -54,8 +56,8 @@ impl Operands {
         if self.bits() >> 63 == 0 { 1.0 } else { -1.0 }
     }
 
-    /// A finite double: zeros, subnormals, powers of two and their neighbours, the thresholds of the roundings, the
-    /// largest ones, small integers, ordinary numbers and any pattern of bits.
+    /// A finite double: zeros, subnormals, powers of two and their neighbours, the thresholds of the
+    /// roundings, the largest ones, small integers, ordinary numbers and any pattern of bits.
     pub(crate) fn double(&mut self) -> f64 {
         let magnitude = match self.below(12) {
             0 => 0.0,
