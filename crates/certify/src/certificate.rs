@@ -130,15 +130,21 @@ fn patches(subject: &Subject) -> Result<Patches, Error> {
         "the lines of all passes together{} are no uniform B-spline's mask, so that the regular surface is not known",
         mask.unwrap_or_default()
     );
-    let mut checks = vec![rows::row_sums(subject)?, rows::hull(subject)?];
+    let (row_sums, hull) = (rows::row_sums(subject)?, rows::hull(subject)?);
+    Ok(Err(without_patches(subject, row_sums, hull, &reason)))
+}
+
+/// What is said where nothing but rows can be looked at.
+fn without_patches(subject: &Subject, row_sums: Check, hull: Check, reason: &str) -> Vec<Check> {
+    let mut checks = vec![row_sums, hull];
     let others = Statement::ALL.into_iter().filter(|statement| match statement {
         Statement::RowSums | Statement::Hull => false,
         Statement::Levels => !subject.scheme.leading().is_empty(),
         Statement::Corner => subject.scheme.lattice() == Lattice::Vertex,
         _ => true,
     });
-    checks.extend(others.map(|statement| Check::undecided(statement, reason.clone())));
-    Ok(Err(checks))
+    checks.extend(others.map(|statement| Check::undecided(statement, reason)));
+    checks
 }
 
 /// The checks, up to the point where the characteristic map is known.
@@ -160,9 +166,21 @@ impl<'a> Proof<'a> {
         let row_sums = rows::row_sums(subject)?;
         let affine = matches!(row_sums.status, Status::Proven | Status::Numerical);
         let hull = rows::hull(subject)?;
+        if !affine {
+            // block 0 was divided by a vector that is then no eigenvector, and what is left says nothing of the scheme
+            let reason = "rows are not known to sum to 1";
+            let checks = without_patches(subject, row_sums, hull, reason);
+            return Ok(Proof {
+                subject,
+                checks,
+                lambda: None,
+                net: None,
+                heights: Vec::new(),
+            });
+        }
         let spectrum = Spectrum::new(annulus, blocks, evidence);
         let mut facts = Facts::new(subject);
-        let dominant = conditions::dominant(&spectrum, affine);
+        let dominant = conditions::dominant(&spectrum);
         let (subdominant, lambda) = conditions::subdominant(subject, &spectrum, &mut facts);
         let mut checks = vec![row_sums, hull, dominant, subdominant];
         checks.extend(levels(subject, lambda.map(|lambda| lambda.value)));
@@ -191,7 +209,10 @@ impl<'a> Proof<'a> {
     }
 
     fn finish(mut self, evidence: &Evidence) -> Vec<Check> {
-        self.checks.extend(self.map_checks(evidence));
+        // where rows do not sum to 1 every statement has been spoken of
+        if self.checks.iter().all(|check| check.name != Statement::Regular) {
+            self.checks.extend(self.map_checks(evidence));
+        }
         if self.subject.floating {
             self.checks = self.checks.into_iter().map(Check::of_rounded_numbers).collect();
         }
@@ -291,7 +312,14 @@ fn second_order_maps(
             .collect();
         let modulus = |position: usize| spectrum.entries[position].value.modulus().mid();
         of_block.sort_by(|&a, &b| modulus(b).total_cmp(&modulus(a)));
+        // a map is that of the largest eigenvalue only if nothing else in the block may be as large
+        let enclosed = |position: usize| spectrum.entries[position].value.modulus();
+        let rest = of_block.iter().skip(count).map(|&position| enclosed(position).hi());
+        let rest = rest.fold(0.0, f64::max);
         of_block.truncate(count);
+        if of_block.iter().any(|&position| enclosed(position).lo() <= rest) {
+            of_block.clear();
+        }
         // one that is only bounded may be the one that is looked for
         let smallest = of_block
             .iter()

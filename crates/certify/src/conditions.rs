@@ -44,12 +44,9 @@ pub struct Subdominant {
     pub value: Interval,
 }
 
-/// `dominant`; `affine` says whether 1 is known to be an eigenvalue with the constant vector.
-pub fn dominant(spectrum: &Spectrum, affine: bool) -> Check {
+/// `dominant`, of rules whose rows sum to 1.
+pub fn dominant(spectrum: &Spectrum) -> Check {
     const NAME: Statement = Statement::Dominant;
-    if !affine {
-        return Check::undecided(NAME, "rows are not known to sum to 1");
-    }
     let one = Interval::point(1.0);
     let outside = spectrum
         .entries

@@ -237,7 +237,7 @@ fn enclosed(exact: &Scheme<Exact>) -> Scheme<Interval> {
 /// p_2(mu)     = (mu - f3)(mu - g3)         - h (1 + c2) mu     = 0
 /// ```
 ///
-/// Multiplied by the denominator `C - D f3` these are polynomial identities of degree at most 5 in lambda and 2 in s, f3, c1
+/// Multiplied by the denominator `C - D f3` these are polynomial identities of degree at most 6 in lambda, 3 in s, 2 in f3 and 1 in each of c1
 /// and c2; the tests evaluate them in rational arithmetic on a grid with more points than that in every direction, which proves
 /// them. In block 0 on (E - V, F - V), `det(x - S_0)` without its factor `x - 1` is
 ///
@@ -321,7 +321,7 @@ mod tests {
         ]
     }
 
-    /// Degrees of `p_1(lambda)` and `p_2(mu)` times the denominator are at most 7 in lambda, 4 in s and 3 in each of f3, c1, c2.
+    /// Degrees of `p_1(lambda)` and `p_2(mu)` times the denominator are at most 6 in lambda, 3 in s, 2 in f3 and 1 in each of c1, c2.
     /// A polynomial that vanishes on a grid with more points than its degree in every direction is zero.
     #[test]
     fn the_demanded_eigenvalues_hold_by_identity() {

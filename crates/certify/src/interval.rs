@@ -7,16 +7,22 @@
 //! of small rationals with power-of-two denominators are exact. An entry of a matrix that is zero by construction is then
 //! an exact zero, which is what structural arguments need.
 //!
-//! **No NaN, no panic.** Where a result is not defined (a division by an interval that holds zero, a root of an interval
-//! that reaches below zero, a NaN handed in) the result is [`Interval::ENTIRE`]: nothing is known, and whatever is
-//! concluded from it is undecided. Bounds may be infinite.
+//! **No NaN, no panic.** Where a result is not defined (a division by an interval that holds zero, a root of
+//! an interval that reaches below zero, a NaN handed in) the result is [`Interval::ENTIRE`]: nothing is
+//! known, and whatever is concluded from it is undecided. Bounds may be infinite. One thing is concluded all
+//! the same: an interval stands for a real number, so that an exact zero times it is zero. Whoever multiplies
+//! what may not be defined by an exact zero has to know that it is defined.
 //!
 //! Intervals are not ordered. The comparisons here say what is certain: `a.certainly_lt(b)` being false says nothing about
 //! `a >= b`.
 
 mod angle;
 mod decimal;
+#[cfg(test)]
+mod extremes;
 mod ops;
+#[cfg(test)]
+pub(crate) mod oracle;
 mod round;
 mod turn;
 

@@ -7,7 +7,8 @@
 //! * [`eigenpair`]: a simple real eigenvalue with its vector, by the operator of Krawczyk on `A x = lambda x, x_p = 1`.
 //! * [`quotient`]: the matrix that is left when a known eigenvector is divided out.
 //! * [`pair`]: both eigenvalues of a 2 x 2 matrix in closed form.
-//! * [`radius_below`]: a bound of all eigenvalues of a matrix, defective or not, by the inequality of Stein (1952).
+//! * [`radius_below`]: a strict bound of all eigenvalues of a matrix, defective or not, by the inequality of
+//!   Stein (1952).
 
 mod eigenpair;
 mod solve;
@@ -52,8 +53,13 @@ impl Eigenvalue {
 }
 
 /// Both eigenvalues of a 2 x 2 matrix, with a bound on their kind: from `trace`, `det` and the discriminant
-/// `(a - d)^2 + 4 b c`, which does not cancel where the matrix is nearly triangular. Real ones come with the larger modulus
-/// first and the smaller one as the determinant over it, so that both are relatively sharp.
+/// `(a - d)^2 + 4 b c`, which does not cancel where the matrix is nearly triangular.
+///
+/// They are called real, by an imaginary part that is exactly zero, only if the discriminant of every member
+/// is not negative. Of real ones the first is the root away from the cancellation, on the side of the middle
+/// of the trace: where the sign of the trace is certain it is the larger in modulus. The other is enclosed as
+/// the determinant over it as well, so that it is as sharp, relatively, as the determinant. Squares below the
+/// range of doubles leave enclosures that are right and wide.
 pub fn pair(matrix: &Matrix<Interval>) -> [Eigenvalue; 2] {
     let (a, b, c, d) = (matrix[(0, 0)], matrix[(0, 1)], matrix[(1, 0)], matrix[(1, 1)]);
     let half = Interval::point(0.5);
@@ -95,11 +101,14 @@ pub(crate) fn roots(trace: Interval, det: Interval, discriminant: Interval, half
     }; 2]
 }
 
-/// The largest sum of magnitudes of a row: bounds every eigenvalue.
+/// The largest sum of magnitudes of a row, rounded up: no eigenvalue has a larger modulus. One may have just
+/// this modulus.
 pub(crate) fn norm(matrix: &Matrix<Interval>) -> f64 {
     let sums = (0..matrix.rows()).map(|i| matrix.row(i).iter().map(|&entry| Interval::point(entry.mag())).sum());
     sums.fold(0.0, |max: f64, sum: Interval| max.max(sum.hi()))
 }
 
+#[cfg(test)]
+mod extremes;
 #[cfg(test)]
 mod tests;

@@ -285,4 +285,6 @@ fn turn(k: usize, n: usize) -> (Interval, Interval) {
 }
 
 #[cfg(test)]
+mod attacks;
+#[cfg(test)]
 mod tests;

@@ -69,6 +69,7 @@ impl<const D: usize> Centred<D> {
     /// The parameter of a direction, running over the given range; nothing is known where the range is not bounded.
     pub fn parameter(range: Interval, direction: usize) -> Self {
         let mut slopes = [Interval::point(0.0); D];
+        // a radius that is rounded up leaves t within [-1, 1]
         slopes[direction] = Interval::point(range.radius());
         Centred {
             central: Interval::point(range.mid()),
@@ -208,6 +209,8 @@ impl<const D: usize> Scalar for Centred<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::interval::oracle::Operands;
+    use num_rational::BigRational;
     use proptest::prelude::*;
 
     fn formula<S: Scalar + Copy>(x: S, y: S) -> S {
@@ -230,6 +233,87 @@ mod tests {
             prop_assert!(over.central().intersect(central).is_some());
             prop_assert!(formula(x, y).encloses(over.enclosure()));
         }
+    }
+
+    fn rational(value: f64) -> BigRational {
+        BigRational::from_float(value).expect("finite")
+    }
+
+    fn holds(interval: Interval, exact: &BigRational) -> bool {
+        let low = interval.lo() == f64::NEG_INFINITY || rational(interval.lo()) <= *exact;
+        low && (interval.hi() == f64::INFINITY || *exact <= rational(interval.hi()))
+    }
+
+    /// Range, centre and slopes hold the exact values, for ranges of any width that reach across zeros of
+    /// denominators or consist of subnormal numbers.
+    #[test]
+    fn exact_values_stay_inside_at_all_scales() {
+        let mut operands = Operands::new(41);
+        let mut bounded = 0;
+        for round in 0..900 {
+            let mut number = || match round % 3 {
+                0 => operands.double().clamp(-1e100, 1e100),
+                _ => operands.fraction() * operands.sign(),
+            };
+            let (m, n) = (number(), number());
+            let radius = [0.0, 1e-300, 1e-12, 0.1, 3.0][operands.below(5)];
+            let (x, y) = (Interval::around(m, radius), Interval::around(n, radius));
+            let (cx, cy) = (Centred::<2>::parameter(x, 0), Centred::parameter(y, 1));
+            let sum = cx + cy;
+            let product = sum * (cx - cy) - cx * cx;
+            let quotient = product / (cy + Centred::ratio(1, 3));
+            let root = (cx * cx + cy * cy).sqrt();
+            for _ in 0..3 {
+                // members p = m + r t with t in [-1, 1]
+                let mut member = |range: Interval| {
+                    let (mid, radius) = (rational(range.mid()), rational(range.radius()));
+                    let end = [range.lo(), range.hi(), range.mid()][operands.below(3)];
+                    let p = match operands.below(2) {
+                        0 => rational(end),
+                        _ => {
+                            rational((range.mid() + range.radius() * operands.fraction()).clamp(range.lo(), range.hi()))
+                        }
+                    };
+                    let t = if radius == rational(0.0) {
+                        radius
+                    } else {
+                        (&p - mid) / radius
+                    };
+                    (p, t)
+                };
+                let ((p, s), (q, t)) = (member(x), member(y));
+                let exact_product = (&p + &q) * (&p - &q) - &p * &p;
+                let third = BigRational::new(1.into(), 3.into());
+                let mut exact = vec![(sum, &p + &q), (product, exact_product.clone())];
+                let denominator = &q + third;
+                if denominator != rational(0.0) {
+                    exact.push((quotient, exact_product / denominator));
+                }
+                for (found, exact) in exact {
+                    assert!(holds(found.enclosure(), &exact), "{x:?} {y:?} {found:?} {exact}");
+                    // the slopes lead from the centre to the value: exact ends of their products with s and t
+                    let [a, b] = found.slopes;
+                    if [a, b, found.central].iter().all(|part| part.is_bounded()) {
+                        let reach = |low: bool| {
+                            let end = |slope: Interval, t: &BigRational| {
+                                let ends = [slope.lo(), slope.hi()].map(|bound| rational(bound) * t);
+                                let [first, second] = ends;
+                                if (first < second) == low { first } else { second }
+                            };
+                            let central = if low { found.central.lo() } else { found.central.hi() };
+                            rational(central) + end(a, &s) + end(b, &t)
+                        };
+                        assert!(reach(true) <= exact && exact <= reach(false), "{x:?} {y:?} {found:?}");
+                        bounded += 1;
+                    }
+                }
+                let square = &p * &p + &q * &q;
+                let root = root.enclosure();
+                assert!(root.lo() <= 0.0 || rational(root.lo()) * rational(root.lo()) <= square);
+                assert!(root.hi() == f64::INFINITY || square <= rational(root.hi()) * rational(root.hi()));
+            }
+        }
+        assert!(bounded > 4000, "{bounded}");
     }
 
     #[test]

@@ -57,7 +57,8 @@ fn at(t: Interval) -> Interval {
         let half_turn = Interval::pi() * Interval::point(0.5);
         return half_turn - at(Interval::point(1.0) / t);
     }
-    let guess = t.mid().atan();
+    // whatever the library says, the series of the sine and the cosine are for [0, 1)
+    let guess = t.mid().atan().clamp(0.0, 0.875);
     let [sin, cos] = turn::sin_cos(guess);
     let r = (t * cos - sin) / (cos + t * sin);
     // the factor of r between |r| - |r|^3/3 and |r|

@@ -7,7 +7,7 @@
 //! it must, and an operation without error keeps a point a point: a zero that holds exactly stays an exact zero.
 //!
 //! The residual of a product, a quotient or a root can itself underflow to zero. Below [`RESIDUAL_SAFE`] a zero residual
-//! is therefore not taken as a proof of exactness.
+//! is therefore not taken as a proof of exactness, unless the operation is by one.
 //!
 //! Every function returns the pair `(below, above)` of bounds of one operation on two doubles that are not NaN; where
 //! infinite bounds meet they follow the interval convention `0 * inf = 0`.
@@ -88,7 +88,8 @@ pub(super) fn product(a: f64, b: f64) -> (f64, f64) {
         };
     }
     let residual = a.mul_add(b, -rounded);
-    bounds(rounded, Error::of(residual, rounded.abs() >= RESIDUAL_SAFE))
+    let trusted = rounded.abs() >= RESIDUAL_SAFE || a.abs() == 1.0 || b.abs() == 1.0;
+    bounds(rounded, Error::of(residual, trusted))
 }
 
 /// Bounds of `a / b` for a finite or infinite `a` and a `b` that is not zero.
@@ -107,7 +108,7 @@ pub(super) fn quotient(a: f64, b: f64) -> (f64, f64) {
     }
     let residual = (-rounded).mul_add(b, a);
     let signed = if b < 0.0 { -residual } else { residual };
-    let trusted = a.abs() >= RESIDUAL_SAFE && rounded.abs() >= f64::MIN_POSITIVE;
+    let trusted = a.abs() >= RESIDUAL_SAFE && rounded.abs() >= f64::MIN_POSITIVE || b.abs() == 1.0;
     bounds(rounded, Error::of(signed, trusted))
 }
 

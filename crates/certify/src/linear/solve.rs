@@ -4,7 +4,7 @@ use crate::Interval;
 use eigenring_spectral::Matrix;
 
 /// An enclosure of the solutions of `A x = b` for all members of an interval matrix and right side; `None` if the matrix
-/// was not proven regular.
+/// was not proven regular, or the sizes do not fit.
 ///
 /// With an approximate inverse R and solution `x~` the error `e = x - x~` is the fixed point of
 /// `e = R (b - A x~) + (I - R A) e`. If the right side maps a box into its interior, the matrix is regular and the error
@@ -12,6 +12,9 @@ use eigenring_spectral::Matrix;
 /// a slight inflation.
 pub fn solve(matrix: &Matrix<Interval>, right: &[Interval]) -> Option<Vec<Interval>> {
     let size = matrix.rows();
+    if matrix.columns() != size || right.len() != size {
+        return None;
+    }
     let inverse = approximate_inverse(&matrix.map(Interval::mid))?;
     let middle: Vec<f64> = (0..size)
         .map(|i| (0..size).map(|j| inverse[(i, j)] * right[j].mid()).sum())

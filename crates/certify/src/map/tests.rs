@@ -11,7 +11,7 @@ use eigenring_spectral::{LocalSystem, Maps};
 const RADIUS: f64 = 1e-12;
 
 /// The leading mode of a Fourier index on the scheme's annulus, real and imaginary part, with its eigenvalue.
-fn mode(scheme: &Scheme<f64>, annulus: Annulus, fourier: usize) -> (f64, [Vec<f64>; 2]) {
+pub(super) fn mode(scheme: &Scheme<f64>, annulus: Annulus, fourier: usize) -> (f64, [Vec<f64>; 2]) {
     let system = LocalSystem::new(scheme.limit(), annulus.numbering.rings).unwrap();
     let value = system.blocks()[fourier].eigenvalues().unwrap()[0].value.0;
     let mode = system.single(fourier, value).unwrap();
@@ -24,14 +24,14 @@ fn mode(scheme: &Scheme<f64>, annulus: Annulus, fourier: usize) -> (f64, [Vec<f6
     )
 }
 
-fn widened(values: &[f64]) -> Vec<Interval> {
+pub(super) fn widened(values: &[f64]) -> Vec<Interval> {
     values
         .iter()
         .map(|&value| Interval::around(value, RADIUS * value.abs().max(1.0)))
         .collect()
 }
 
-fn net(scheme: &Scheme<f64>, fourier: usize) -> PlaneNet<Interval> {
+pub(super) fn net(scheme: &Scheme<f64>, fourier: usize) -> PlaneNet<Interval> {
     let annulus = Annulus::new(scheme).unwrap();
     let (_, parts) = mode(scheme, annulus, fourier);
     PlaneNet::new(annulus, fourier, true, parts.map(|part| widened(&part))).unwrap()
@@ -132,7 +132,7 @@ fn a_square_map_has_positive_jacobian_and_winds_twice() {
 }
 
 /// The natural configuration of Catmull-Clark with all points of one orbit moved along their radius.
-fn moved(valence: usize, site: (i32, i32), factor: f64) -> Result<PlaneNet<Interval>, NetError> {
+pub(super) fn moved(valence: usize, site: (i32, i32), factor: f64) -> Result<PlaneNet<Interval>, NetError> {
     let scheme = catmull_clark::<f64>(valence).unwrap();
     let annulus = Annulus::new(&scheme).unwrap();
     let (_, mut parts) = mode(&scheme, annulus, 1);
@@ -368,7 +368,7 @@ fn corner_angles_are_those_of_the_configuration() {
 }
 
 /// The heights of the second-order maps and the signs they should have.
-fn heights(net: &PlaneNet<Interval>, maps: &Maps) -> Vec<(Sign, Heights<Interval>)> {
+pub(super) fn heights(net: &PlaneNet<Interval>, maps: &Maps) -> Vec<(Sign, Heights<Interval>)> {
     let n = net.sectors();
     let [cup, re, im] = maps.second_order.each_ref().map(|z| widened(z));
     let cup = (Sign::Positive, Heights::new(net, 0, vec![cup]).unwrap());
