@@ -75,6 +75,15 @@ impl Axis {
             Scale::Log => f64::NAN,
         }
     }
+
+    /// What lies at a position, the inverse of [`Axis::position`].
+    pub(crate) fn value(&self, position: f64) -> f64 {
+        let (low, high) = self.range;
+        match self.scale {
+            Scale::Linear => low + position * (high - low),
+            Scale::Log => low * (high / low).powf(position),
+        }
+    }
 }
 
 /// The smallest range that holds all finite values, widened by a fraction of itself at both ends; `None` if there are none.

@@ -46,12 +46,15 @@
 //! at the right of its panel, or of the figure. [`Layout::faults`] finds texts that leave the page or overlap and legends that cover data, and is
 //! meant for tests of figures.
 
+mod axes;
+mod backend;
 mod chart;
 mod clip;
 mod colour;
 mod draw;
 mod error;
 mod figure;
+mod layers;
 mod legend;
 mod raster;
 mod scene;
