@@ -18,7 +18,8 @@ use plotters_backend::text_anchor::{HPos, VPos};
 use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind, FontTransform,
 };
-use std::iter::Once;
+use std::iter::{Flatten, Once};
+use std::slice::Iter;
 
 /// Pixels in a millimetre.
 const PIXELS: f64 = 1000.0;
@@ -70,9 +71,16 @@ impl<'p> Backend<'p> {
         Backend { page, frame }
     }
 
-    fn path(&mut self, points: Vec<BackendCoord>, closed: bool, fill: Option<(Colour, f64)>, stroke: Option<Stroke>) {
+    fn path(
+        &mut self,
+        lines: Vec<Vec<BackendCoord>>,
+        closed: bool,
+        fill: Option<(Colour, f64)>,
+        stroke: Option<Stroke>,
+    ) {
+        let on_page = |line: Vec<BackendCoord>| line.into_iter().map(millimetres).collect();
         self.page.scene.shapes.push(Shape::Path {
-            lines: vec![points.into_iter().map(millimetres).collect()],
+            lines: lines.into_iter().map(on_page).collect(),
             closed,
             fill,
             stroke,
@@ -121,7 +129,7 @@ impl DrawingBackend for Backend<'_> {
     }
 
     fn draw_line<S: BackendStyle>(&mut self, from: BackendCoord, to: BackendCoord, style: &S) -> Drawn {
-        self.path(vec![from, to], false, None, Some(stroke_of(style)));
+        self.path(vec![vec![from, to]], false, None, Some(stroke_of(style)));
         Ok(())
     }
 
@@ -129,7 +137,7 @@ impl DrawingBackend for Backend<'_> {
         let points: Vec<BackendCoord> = path.into_iter().collect();
         // plotters draws a line along each axis; the frame, one outline with joined corners, has it already, and edges drawn twice look bolder
         if !self.is_side(&points) {
-            self.path(points, false, None, Some(stroke_of(style)));
+            self.path(vec![points], false, None, Some(stroke_of(style)));
         }
         Ok(())
     }
@@ -139,7 +147,7 @@ impl DrawingBackend for Backend<'_> {
         if fill {
             return self.fill_polygon(corners, style);
         }
-        self.path(corners, true, None, Some(stroke_of(style)));
+        self.path(vec![corners], true, None, Some(stroke_of(style)));
         Ok(())
     }
 
@@ -156,7 +164,7 @@ impl DrawingBackend for Backend<'_> {
 
     fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, corners: I, style: &S) -> Drawn {
         let fill = (colour(style.color()), style.color().alpha);
-        self.path(corners.into_iter().collect(), true, Some(fill), None);
+        self.path(vec![corners.into_iter().collect()], true, Some(fill), None);
         Ok(())
     }
 
@@ -205,24 +213,28 @@ pub(crate) fn refused(error: DrawingAreaErrorKind<Error>) -> Error {
 /// A point in the chart's own coordinates.
 pub(crate) type Point = (f64, f64);
 
-/// A line with dashes.
+/// Pieces of a line, with dashes.
 pub(crate) struct Line {
-    pub points: Vec<Point>,
+    pub pieces: Vec<Vec<Point>>,
     pub stroke: Stroke,
 }
 
 impl<'a> PointCollection<'a, Point> for &'a Line {
     type Point = &'a Point;
-    type IntoIter = &'a [Point];
+    type IntoIter = Flatten<Iter<'a, Vec<Point>>>;
 
-    fn point_iter(self) -> &'a [Point] {
-        &self.points
+    fn point_iter(self) -> Self::IntoIter {
+        self.pieces.iter().flatten()
     }
 }
 
 impl<'p> Drawable<Backend<'p>> for Line {
-    fn draw<I: Iterator<Item = BackendCoord>>(&self, points: I, backend: &mut Backend<'p>, _: (u32, u32)) -> Drawn {
-        backend.path(points.collect(), false, None, Some(self.stroke));
+    fn draw<I: Iterator<Item = BackendCoord>>(&self, mut points: I, backend: &mut Backend<'p>, _: (u32, u32)) -> Drawn {
+        let pieces = self.pieces.iter();
+        let lines = pieces
+            .map(|piece| points.by_ref().take(piece.len()).collect())
+            .collect();
+        backend.path(lines, false, None, Some(self.stroke));
         Ok(())
     }
 }

@@ -85,11 +85,13 @@ impl<'a, 'p> Canvas<'a, 'p> {
 
     /// The pieces of a line inside the frame.
     fn line(&mut self, positions: &[[f64; 2]], stroke: Stroke) -> Result<(), Error> {
-        for piece in clip::polyline(positions, &FRAME) {
-            let points = piece.into_iter().map(|at| self.value(at)).collect();
-            self.context.draw_series([Line { points, stroke }]).map_err(refused)?;
+        let values = |piece: Vec<[f64; 2]>| piece.into_iter().map(|at| self.value(at)).collect();
+        let pieces: Vec<Vec<Point>> = clip::polyline(positions, &FRAME).into_iter().map(values).collect();
+        if pieces.is_empty() {
+            return Ok(());
         }
-        Ok(())
+        let line = Line { pieces, stroke };
+        self.context.draw_series([line]).map(|_| ()).map_err(refused)
     }
 
     /// The part of a polygon inside the frame.
