@@ -264,3 +264,92 @@ impl<'p> Drawable<Backend<'p>> for Mark {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::text::Font;
+    use plotters::drawing::IntoDrawingArea;
+    use plotters::element::{Circle, Pixel, Rectangle, Text};
+    use plotters::style::FontDesc;
+    use plotters_backend::{FontFamily, FontStyle};
+
+    fn drawn(draw: impl Fn(Backend<'_>)) -> Page {
+        let mut page = Page {
+            font: Font::new(),
+            scene: Scene {
+                size: [50.0, 40.0],
+                shapes: Vec::new(),
+            },
+            texts: Vec::new(),
+            plots: Vec::new(),
+            legends: Vec::new(),
+        };
+        draw(Backend::new(&mut page, Rect::new(10.0, 5.0, 40.0, 30.0)));
+        page
+    }
+
+    #[test]
+    fn elements_of_plotters_are_shapes_and_not_pixels() {
+        let red = fill_style(Colour(255, 0, 0), 0.5);
+        let page = drawn(|backend| {
+            assert_eq!(backend.get_size(), (50_000, 40_000));
+            let area = backend.into_drawing_area();
+            area.draw(&Circle::new((10_000, 20_000), 1500, red)).unwrap();
+            area.draw(&Rectangle::new([(0, 0), (1000, 2000)], red)).unwrap();
+            area.draw(&Pixel::new((7, 8), red)).unwrap();
+            area.present().unwrap();
+        });
+        let [
+            Shape::Circle { at, radius, .. },
+            Shape::Path { lines, fill, .. },
+            Shape::Path { .. },
+        ] = &page.scene.shapes[..]
+        else {
+            panic!("{:?}", page.scene.shapes)
+        };
+        assert_eq!((*at, *radius), ([10.0, 20.0], 1.5));
+        assert_eq!(lines[0], [[0.0, 0.0], [1.0, 0.0], [1.0, 2.0], [0.0, 2.0]]);
+        assert_eq!(*fill, Some((Colour(255, 0, 0), 0.5)));
+    }
+
+    #[test]
+    fn lines_along_the_frame_are_left_out_but_no_others() {
+        let style = line_style(Stroke::solid(Colour::INK, 0.2));
+        let page = drawn(|mut backend| {
+            // as plotters draws the axes below and to the left, a pixel outside
+            backend.draw_path([(10_000, 30_001), (40_000, 30_001)], &style).unwrap();
+            backend.draw_path([(9_999, 30_000), (9_999, 5_000)], &style).unwrap();
+            backend.draw_path([(9_999, 30_000), (9_299, 30_000)], &style).unwrap();
+            backend
+                .draw_path([(10_000, 30_000), (25_000, 30_000), (40_000, 30_000)], &style)
+                .unwrap();
+            backend.draw_line((10_000, 30_000), (40_000, 30_000), &style).unwrap();
+        });
+        assert_eq!(page.scene.shapes.len(), 3);
+        let Shape::Path { stroke, .. } = &page.scene.shapes[0] else {
+            unreachable!()
+        };
+        assert_eq!(*stroke, Some(Stroke::solid(Colour::INK, 0.2)));
+    }
+
+    #[test]
+    fn texts_are_measured_and_checked_by_the_embedded_font() {
+        let font = || FontDesc::new(FontFamily::SansSerif, font_size(2.0), FontStyle::Normal);
+        let page = drawn(|backend| {
+            let wide = backend
+                .estimate_text_size("mm", &plotters::style::TextStyle::from(font()))
+                .unwrap();
+            // advance width of DejaVu Sans: 'm' 1995 of 2048
+            assert_eq!(wide.0, pixels(2.0 * 2.0 * 1995.0 / 2048.0).unsigned_abs());
+            let area = backend.into_drawing_area();
+            area.draw(&Text::new("x", (5000, 5000), font())).unwrap();
+            let unknown = area.draw(&Text::new("\u{e000}", (5000, 5000), font()));
+            assert_eq!(unknown.map_err(refused), Err(Error::Character('\u{e000}')));
+        });
+        assert_eq!(page.texts.len(), 1);
+        let (_, place) = &page.texts[0];
+        assert!(place.left == 5.0 && place.top >= 5.0 && place.top < 5.1, "{place:?}");
+    }
+}

@@ -403,5 +403,10 @@ mod tests {
         let log = Axis::log("", (1.0, 100.0));
         assert!((log.position(10.0) - 0.5).abs() < 1e-15);
         assert!(log.position(0.0) < 0.0 && log.position(f64::NAN).is_nan());
+        for axis in [log, Axis::new("", (-3.0, 7.0))] {
+            for position in [0.0, 0.3, 1.0] {
+                assert!((axis.position(axis.value(position)) - position).abs() < 1e-15);
+            }
+        }
     }
 }
