@@ -1,7 +1,8 @@
 //! Axes and grids, which plotters draws: where values lie, where the ticks are, and the room for their texts.
 //!
-//! The ticks are those of [`crate::ticks`], chosen by the printed length of the axis. plotters' own choice leaves a single tick where no multiple of a coarser
-//! step fits, writes no powers of ten, and has no minor ticks; through [`Ranged`] it takes ours.
+//! The ticks are those of [`crate::ticks`], chosen by the printed length of the axis. plotters' own choice
+//! leaves a single tick where no multiple of a coarser step fits, writes no powers of ten, and has no minor
+//! ticks; through [`Ranged`] it takes ours.
 
 use crate::backend::{Backend, font_size, line_style, pixels, refused};
 use crate::chart::{Axis, Chart, Scale};
@@ -27,10 +28,10 @@ const APART: f64 = 0.45;
 /// Millimetres of an axis for each tick.
 const PER_X_TICK: f64 = 9.0;
 const PER_Y_TICK: f64 = 5.0;
-/// The room for texts below the horizontal axis, relative to their size: tick texts alone, and with the label.
+/// The room for texts below the horizontal axis, relative to their size: texts of ticks, and a label below.
 const TEXT: f64 = 1.1;
 const TEXTS: f64 = 2.4;
-/// The room for the label of the vertical axis, beside the tick texts.
+/// The room for the label of the vertical axis beside the texts of its ticks: its height and a gap.
 const BESIDE: f64 = 1.21;
 
 /// plotters' chart on the page.
@@ -245,7 +246,8 @@ impl<'a> Axes<'a> {
         if self.minor.iter().all(Vec::is_empty) {
             return Ok(());
         }
-        // plotters ticks an axis in one length only: shorter ones are those of another chart in the same place
+        // plotters ticks an axis in one length only: shorter ones are those of another chart in the same
+        // place
         let mut minor = self.build(&self.minor, page, plot)?;
         let mut mesh = minor.configure_mesh();
         mesh.disable_mesh().axis_style(style);

@@ -1,8 +1,9 @@
 //! What plotters draws on: a page whose pixels are micrometres.
 //!
-//! plotters counts in whole pixels. With a micrometre for each, which is also the last decimal of the SVG, nothing that it rounds is seen. It
-//! lays out texts by their anchors and never asks for their size; here they become outlines of the embedded font, with a box for the tests of the
-//! layout. Its styles have neither dashes nor markers of a line and a filling, so that these are elements of our own, which plotters places.
+//! plotters counts in whole pixels. With a micrometre for each, which is also the last decimal of the SVG,
+//! nothing that it rounds is seen. It places texts by anchors; here they become outlines of the embedded
+//! font, with a box for the tests of the layout. Its styles have neither dashes nor markers with a line and a
+//! filling of different colours, so that lines and markers are elements of our own, which plotters places.
 
 use crate::chart::Marker;
 use crate::colour::Colour;
@@ -54,11 +55,11 @@ fn colour(style: BackendColor) -> Colour {
     Colour(r, g, b)
 }
 
-/// Where the baseline lies below the upper end, the middle and the lower end of a text, relative to its size: digits and capitals of the font are
-/// 0.73 high, and centred by their middle; descenders have a quarter.
+/// Where the baseline lies below the upper end, the middle and the lower end of a text, relative to its size:
+/// digits and capitals of the font are 0.73 high, and centred by their middle; descenders have a quarter.
 const TOP: f64 = 0.76;
 pub(crate) const MIDDLE: f64 = 0.36;
-pub(crate) const BOTTOM: f64 = -0.25;
+const BOTTOM: f64 = -0.25;
 
 /// A page that plotters draws on, with the frame of the chart in hand.
 pub(crate) struct Backend<'p> {
@@ -135,7 +136,8 @@ impl DrawingBackend for Backend<'_> {
 
     fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, path: I, style: &S) -> Drawn {
         let points: Vec<BackendCoord> = path.into_iter().collect();
-        // plotters draws a line along each axis; the frame, one outline with joined corners, has it already, and edges drawn twice look bolder
+        // plotters draws a line along each axis; the frame, one outline with joined corners, has it already,
+        // and edges drawn twice look bolder
         if !self.is_side(&points) {
             self.path(vec![points], false, None, Some(stroke_of(style)));
         }

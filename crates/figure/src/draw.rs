@@ -1,7 +1,7 @@
 //! Charts on the page: margins for their texts, then axes and layers.
 //!
-//! plotters draws axes, grids and what is drawn along them ([`crate::axes`], [`crate::layers`]). The texts of rules, which move apart where they
-//! are too close, have no counterpart there.
+//! plotters draws axes, grids and what is drawn along them ([`crate::axes`], [`crate::layers`]). The texts of
+//! rules, which move apart where they are too close, have no counterpart there.
 
 use crate::axes::Axes;
 use crate::chart::{Chart, Layer};
@@ -144,7 +144,8 @@ pub(crate) fn draw(chart: &Chart, page: &mut Page, to: Rect) -> Result<Rect, Err
     Ok(plot)
 }
 
-/// The texts of vertical rules in a row above the frame, moved apart where they are too close, with leaders to their rules.
+/// The texts of vertical rules in a row above the frame, moved apart where they are too close, with leaders
+/// to their rules.
 fn rule_texts(chart: &Chart, page: &mut Page, plot: Rect) -> Result<(), Error> {
     let x = |value: f64| plot.left + chart.x.position(value) * plot.width();
     let rules = named_rules(chart);
@@ -161,8 +162,8 @@ fn rule_texts(chart: &Chart, page: &mut Page, plot: Rect) -> Result<(), Error> {
     Ok(())
 }
 
-/// Centres of intervals of the given widths, in order and disjoint, as close to the wanted centres as possible (least squares, by
-/// merging neighbours that overlap).
+/// Centres of intervals of the given widths, in order and disjoint, as close to the wanted centres as
+/// possible (least squares, by merging neighbours that overlap).
 fn spread(wanted: &[(f64, f64)]) -> Vec<f64> {
     // (first index, count, centre of the group, its width)
     let mut groups: Vec<(usize, usize, f64, f64)> = Vec::new();

@@ -1,7 +1,8 @@
 //! The layers of a chart, drawn through plotters.
 //!
-//! plotters puts points outside the frame on its border, which would bend lines: they are cut there before, by their positions along the axes, so that
-//! a line across a logarithmic axis is cut where it is straight. Meshes of cells, whose seams are closed, and texts beside points go to the page directly.
+//! plotters puts points outside the frame on its border, which would bend lines: they are cut there before,
+//! by their positions along the axes, so that a line across a logarithmic axis is cut where it is straight.
+//! Meshes of cells, whose seams are closed, and texts beside points go to the page directly.
 
 use crate::axes::{Axes, Context};
 use crate::backend::{Backend, Line, MIDDLE, Mark, Point, fill_style, refused};

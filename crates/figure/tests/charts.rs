@@ -1,6 +1,8 @@
-//! What plotters draws of a chart: clipped and not clamped, to the micrometre, with outlines for text, and the same again.
+//! What plotters draws of a chart: clipped and not clamped, to the micrometre, with outlines for text, and
+//! the same again.
 //!
-//! The oracle is plain proportion: where a point must lie between the sides of the frame, which the layout tells, compared with the coordinates in the SVG.
+//! The oracle is plain proportion: where a point must lie between the sides of the frame, which the layout
+//! tells, compared with the coordinates in the SVG.
 
 use eigenring_figure::{Axis, Chart, Colour, Dash, Figure, Marker, Panel, Rect, Stroke, Style, Width};
 
