@@ -75,6 +75,15 @@ impl Axis {
             Scale::Log => f64::NAN,
         }
     }
+
+    /// What lies at a position, the inverse of [`Axis::position`].
+    pub(crate) fn value(&self, position: f64) -> f64 {
+        let (low, high) = self.range;
+        match self.scale {
+            Scale::Linear => low + position * (high - low),
+            Scale::Log => low * (high / low).powf(position),
+        }
+    }
 }
 
 /// The smallest range that holds all finite values, widened by a fraction of itself at both ends; `None` if there are none.
@@ -394,5 +403,10 @@ mod tests {
         let log = Axis::log("", (1.0, 100.0));
         assert!((log.position(10.0) - 0.5).abs() < 1e-15);
         assert!(log.position(0.0) < 0.0 && log.position(f64::NAN).is_nan());
+        for axis in [log, Axis::new("", (-3.0, 7.0))] {
+            for position in [0.0, 0.3, 1.0] {
+                assert!((axis.position(axis.value(position)) - position).abs() < 1e-15);
+            }
+        }
     }
 }

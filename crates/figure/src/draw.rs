@@ -1,26 +1,27 @@
-//! Charts on the page: margins for ticks and labels, then axes and layers.
+//! Charts on the page: margins for their texts, then axes and layers.
+//!
+//! plotters draws axes, grids and what is drawn along them ([`crate::axes`], [`crate::layers`]). The texts of
+//! rules, which move apart where they are too close, have no counterpart there.
 
-use crate::chart::{Axis, Chart, Layer, Marker, Scale, Style};
-use crate::clip;
+use crate::axes::Axes;
+use crate::chart::{Chart, Layer};
 use crate::colour::Colour;
 use crate::error::Error;
-use crate::scene::{Dash, Rect, Scene, Shape, Stroke};
+use crate::layers::Canvas;
+use crate::scene::{Rect, Scene, Shape, Stroke};
 use crate::text::{Anchor, Font, POINT, Placed};
-use crate::ticks::{self, Tick};
 
 /// Sizes of text at the printed size: labels and ticks, and titles of panels.
 pub(crate) const SMALL: f64 = 7.0 * POINT;
 pub(crate) const TITLE: f64 = 7.5 * POINT;
-/// Length of ticks and distance of their texts, in millimetres.
-pub(crate) const TICK: f64 = 0.8;
-pub(crate) const GAP: f64 = 0.6;
+/// Blank around a chart, in millimetres.
+const GAP: f64 = 0.6;
+/// Between the label of the vertical axis and what stands beside it, relative to its size.
+const BESIDE: f64 = 0.24;
 /// Between a frame and the texts of rules above it: room for leaders.
 const LEADER: f64 = 1.5;
 /// Between texts in a row.
 const APART: f64 = 0.9;
-/// Millimetres of an axis for each tick.
-const PER_X_TICK: f64 = 9.0;
-const PER_Y_TICK: f64 = 5.0;
 
 /// A page being drawn, with the boxes by which its layout is judged.
 pub(crate) struct Page {
@@ -73,55 +74,6 @@ pub(crate) struct Margins {
     pub bottom: f64,
 }
 
-/// The outline of a rectangle.
-pub(crate) fn frame(rect: &Rect) -> Shape {
-    let (l, t, r, b) = (rect.left, rect.top, rect.right, rect.bottom);
-    Shape::Path {
-        lines: vec![vec![[l, t], [r, t], [r, b], [l, b]]],
-        closed: true,
-        fill: None,
-        stroke: Some(Stroke::solid(Colour::INK, 0.2)),
-    }
-}
-
-impl Axis {
-    fn check(&self) -> Result<(), Error> {
-        let (low, high) = self.range;
-        let log = self.scale == Scale::Log;
-        if low.is_finite() && high.is_finite() && low < high && (!log || low > 0.0) {
-            return Ok(());
-        }
-        let name = if self.label.is_empty() {
-            "without label"
-        } else {
-            &self.label
-        };
-        Err(Error::Range {
-            what: format!("the axis {name}"),
-            low,
-            high,
-            log,
-        })
-    }
-
-    fn ticks(&self, length: f64, per_tick: f64) -> Vec<Tick> {
-        let most = ((length / per_tick) as usize).clamp(3, 12);
-        let (low, high) = self.range;
-        match (&self.ticks, self.scale) {
-            (Some(ticks), _) => {
-                let inside = ticks.iter().filter(|tick| (low..=high).contains(&tick.0));
-                let tick = |(value, text): &(f64, String)| Tick {
-                    value: *value,
-                    text: text.clone(),
-                };
-                inside.map(tick).collect()
-            }
-            (None, Scale::Linear) => ticks::linear(low, high, most),
-            (None, Scale::Log) => ticks::logarithmic(low, high, most),
-        }
-    }
-}
-
 /// The rules with a text, by position.
 fn named_rules(chart: &Chart) -> Vec<(f64, &str)> {
     let mut rules: Vec<(f64, &str)> = chart
@@ -157,23 +109,12 @@ pub(crate) fn margins(chart: &Chart, about: [f64; 2], page: &Page) -> Result<Mar
     if !chart.frame {
         return Ok(margins);
     }
-    let mut last = 0.0;
-    for tick in chart.x.ticks(about[0], PER_X_TICK) {
-        last = page.font.line(&tick.text, SMALL)?.width * chart.x.position(tick.value);
-    }
-    margins.right = margins.right.max(last / 2.0);
-    margins.bottom = TICK + GAP + 1.1 * SMALL;
-    if !chart.x.label.is_empty() {
-        margins.bottom += 1.3 * SMALL;
-    }
-    let mut widest: f64 = 0.0;
-    for tick in chart.y.ticks(about[1], PER_Y_TICK) {
-        widest = widest.max(page.font.line(&tick.text, SMALL)?.width);
-    }
-    margins.left = TICK + GAP + widest;
+    let axes = Axes::new(chart, about, &page.font)?;
+    [margins.left, margins.bottom] = axes.room();
     if !chart.y.label.is_empty() {
-        margins.left += 1.45 * SMALL;
+        margins.left += BESIDE * SMALL;
     }
+    margins.right = margins.right.max(axes.overhang());
     margins.top = margins.top.max(0.5 * SMALL);
     Ok(margins)
 }
@@ -196,85 +137,17 @@ fn plot(chart: &Chart, to: Rect) -> Rect {
 pub(crate) fn draw(chart: &Chart, page: &mut Page, to: Rect) -> Result<Rect, Error> {
     let plot = plot(chart, to);
     page.plots.push(plot);
-    let x = |value: f64| plot.left + chart.x.position(value) * plot.width();
-    let y = |value: f64| plot.bottom - chart.y.position(value) * plot.height();
-    let (x_ticks, y_ticks) = (
-        chart.x.ticks(to.width(), PER_X_TICK),
-        chart.y.ticks(to.height(), PER_Y_TICK),
-    );
-
-    // spans lie below the grid, all else above it
-    let (spans, others): (Vec<_>, Vec<_>) = chart
-        .layers
-        .iter()
-        .map(|(layer, _)| layer)
-        .partition(|layer| matches!(layer, Layer::Span { .. }));
-    spans
-        .into_iter()
-        .try_for_each(|layer| draw_layer(layer, page, plot, &x, &y))?;
-    let grid = Stroke::solid(Colour::PALE, 0.12);
-    for tick in x_ticks.iter().filter(|tick| chart.x.grid && !tick.text.is_empty()) {
-        page.line(vec![[x(tick.value), plot.top], [x(tick.value), plot.bottom]], grid);
-    }
-    for tick in y_ticks.iter().filter(|tick| chart.y.grid && !tick.text.is_empty()) {
-        page.line(vec![[plot.left, y(tick.value)], [plot.right, y(tick.value)]], grid);
-    }
-    others
-        .into_iter()
-        .try_for_each(|layer| draw_layer(layer, page, plot, &x, &y))?;
-
-    if chart.frame {
-        page.scene.shapes.push(frame(&plot));
-        axes(chart, page, plot, (&x_ticks, &x), (&y_ticks, &y))?;
-    }
-    rule_texts(chart, page, plot, &x)?;
+    let mut axes = Axes::new(chart, [to.width(), to.height()], &page.font)?;
+    axes.thin_out(plot.width());
+    Canvas::new(&axes, page, plot)?.draw()?;
+    rule_texts(chart, page, plot)?;
     Ok(plot)
 }
 
-type Map<'a> = &'a dyn Fn(f64) -> f64;
-
-fn axes(
-    chart: &Chart,
-    page: &mut Page,
-    plot: Rect,
-    (x_ticks, x): (&[Tick], Map<'_>),
-    (y_ticks, y): (&[Tick], Map<'_>),
-) -> Result<(), Error> {
-    let stroke = Stroke::solid(Colour::INK, 0.2);
-    let length = |tick: &Tick| if tick.text.is_empty() { TICK / 2.0 } else { TICK };
-    // a tick text that would touch the one before it is left out
-    let mut free = f64::NEG_INFINITY;
-    for tick in x_ticks {
-        let at = x(tick.value);
-        page.line(vec![[at, plot.bottom], [at, plot.bottom + length(tick)]], stroke);
-        let half = page.font.line(&tick.text, SMALL)?.width / 2.0;
-        if at - half < free {
-            continue;
-        }
-        free = at + half + APART / 2.0;
-        let place = [at, plot.bottom + TICK + GAP + 0.76 * SMALL];
-        page.text(&tick.text, SMALL, place, Anchor::Middle, false, Colour::INK)?;
-    }
-    let mut widest: f64 = 0.0;
-    for tick in y_ticks {
-        let at = y(tick.value);
-        page.line(vec![[plot.left - length(tick), at], [plot.left, at]], stroke);
-        widest = widest.max(page.font.line(&tick.text, SMALL)?.width);
-        let place = [plot.left - TICK - GAP, at + 0.36 * SMALL];
-        page.text(&tick.text, SMALL, place, Anchor::End, false, Colour::INK)?;
-    }
-    let middle = (plot.left + plot.right) / 2.0;
-    let below = [middle, plot.bottom + TICK + GAP + 2.15 * SMALL];
-    page.text(&chart.x.label, SMALL, below, Anchor::Middle, false, Colour::INK)?;
-    let beside = [
-        plot.left - TICK - GAP - widest - 0.45 * SMALL,
-        (plot.top + plot.bottom) / 2.0,
-    ];
-    page.text(&chart.y.label, SMALL, beside, Anchor::Middle, true, Colour::INK)
-}
-
-/// The texts of vertical rules in a row above the frame, moved apart where they are too close, with leaders to their rules.
-fn rule_texts(chart: &Chart, page: &mut Page, plot: Rect, x: Map<'_>) -> Result<(), Error> {
+/// The texts of vertical rules in a row above the frame, moved apart where they are too close, with leaders
+/// to their rules.
+fn rule_texts(chart: &Chart, page: &mut Page, plot: Rect) -> Result<(), Error> {
+    let x = |value: f64| plot.left + chart.x.position(value) * plot.width();
     let rules = named_rules(chart);
     let mut wanted = Vec::new();
     for &(at, text) in &rules {
@@ -289,8 +162,8 @@ fn rule_texts(chart: &Chart, page: &mut Page, plot: Rect, x: Map<'_>) -> Result<
     Ok(())
 }
 
-/// Centres of intervals of the given widths, in order and disjoint, as close to the wanted centres as possible (least squares, by
-/// merging neighbours that overlap).
+/// Centres of intervals of the given widths, in order and disjoint, as close to the wanted centres as
+/// possible (least squares, by merging neighbours that overlap).
 fn spread(wanted: &[(f64, f64)]) -> Vec<f64> {
     // (first index, count, centre of the group, its width)
     let mut groups: Vec<(usize, usize, f64, f64)> = Vec::new();
@@ -322,152 +195,6 @@ fn spread(wanted: &[(f64, f64)]) -> Vec<f64> {
         }
     }
     centres
-}
-
-fn draw_layer(layer: &Layer, page: &mut Page, plot: Rect, x: Map<'_>, y: Map<'_>) -> Result<(), Error> {
-    let shapes = &mut page.scene.shapes;
-    let path = |lines, closed, fill, stroke| Shape::Path {
-        lines,
-        closed,
-        fill,
-        stroke,
-    };
-    let place = |p: &[f64; 2]| [x(p[0]), y(p[1])];
-    match layer {
-        Layer::Series { points, style } => {
-            let points: Vec<[f64; 2]> = points.iter().map(place).collect();
-            if let Some(stroke) = style.line {
-                let lines = clip::polyline(&points, &plot);
-                if !lines.is_empty() {
-                    shapes.push(path(lines, false, None, Some(stroke)));
-                }
-            }
-            draw_markers(&mut page.scene, style, &points, plot);
-        }
-        Layer::Band {
-            points,
-            colour,
-            opacity,
-        } => {
-            let finite = |p: &[f64; 3]| p.iter().all(|c| c.is_finite());
-            for run in points.split(|p| !finite(p)) {
-                let below = run.iter().map(|p| [x(p[0]), y(p[1])]);
-                let above = run.iter().rev().map(|p| [x(p[0]), y(p[2])]);
-                let area = clip::polygon(&below.chain(above).collect::<Vec<_>>(), &plot);
-                if !area.is_empty() {
-                    shapes.push(path(vec![area], true, Some((*colour, *opacity)), None));
-                }
-            }
-        }
-        Layer::Span { from, to, colour } => {
-            let (l, r) = (x(*from), x(*to));
-            let corners = [[l, plot.top], [r, plot.top], [r, plot.bottom], [l, plot.bottom]];
-            let area = clip::polygon(&corners, &plot);
-            if !area.is_empty() {
-                shapes.push(path(vec![area], true, Some((*colour, 1.0)), None));
-            }
-        }
-        Layer::Rule {
-            at, vertical, stroke, ..
-        } => {
-            let line = if *vertical {
-                [[x(*at), plot.top], [x(*at), plot.bottom]]
-            } else {
-                [[plot.left, y(*at)], [plot.right, y(*at)]]
-            };
-            let lines = clip::polyline(&line, &plot);
-            if !lines.is_empty() {
-                shapes.push(path(lines, false, None, Some(*stroke)));
-            }
-        }
-        Layer::Cells { cells } => {
-            let placed = cells.iter().filter_map(|(corners, colour)| {
-                let corners: Vec<[f64; 2]> = corners.iter().map(place).collect();
-                let kept = clip::polygon(&corners, &plot);
-                (kept.len() > 2).then_some((*colour, kept))
-            });
-            let cells = placed.collect();
-            shapes.push(Shape::Mesh { cells });
-        }
-        Layer::Outline { corners, stroke, fill } => {
-            let mut corners: Vec<[f64; 2]> = corners.iter().map(place).collect();
-            let area = clip::polygon(&corners, &plot);
-            if let (Some(colour), false) = (fill, area.is_empty()) {
-                shapes.push(path(vec![area], true, Some((*colour, 1.0)), None));
-            }
-            corners.extend(corners.first().copied());
-            let lines = clip::polyline(&corners, &plot);
-            if !lines.is_empty() {
-                shapes.push(path(lines, false, None, Some(*stroke)));
-            }
-        }
-        Layer::Text {
-            at,
-            text,
-            anchor,
-            colour,
-        } => {
-            let [x, y] = place(at);
-            if x.is_finite() && y.is_finite() {
-                page.text(text, SMALL, [x, y + 0.36 * SMALL], *anchor, false, *colour)?;
-            }
-        }
-    }
-    Ok(())
-}
-
-fn draw_markers(scene: &mut Scene, style: &Style, points: &[[f64; 2]], plot: Rect) {
-    let Some((marker, radius)) = style.marker else { return };
-    let visible = Rect::new(plot.left - 1e-6, plot.top - 1e-6, plot.right + 1e-6, plot.bottom + 1e-6);
-    for &[x, y] in points {
-        if visible.contains(&Rect::new(x, y, x, y), 0.0) {
-            draw_marker(scene, marker, radius, style.colour, [x, y]);
-        }
-    }
-}
-
-pub(crate) fn draw_marker(scene: &mut Scene, marker: Marker, radius: f64, colour: Colour, at: [f64; 2]) {
-    let stroke = Stroke {
-        colour,
-        width: 0.3 * radius.min(1.0),
-        dash: Dash::Solid,
-    };
-    let corners: &[[f64; 2]] = match marker {
-        Marker::Circle | Marker::Disc => {
-            let fill = if marker == Marker::Disc { colour } else { Colour::WHITE };
-            scene.shapes.push(Shape::Circle {
-                at,
-                radius,
-                fill,
-                stroke,
-            });
-            return;
-        }
-        Marker::Cross => {
-            let [x, y] = at;
-            let arm = 0.9 * radius;
-            let lines = [[-arm, arm], [arm, arm]].map(|[dx, dy]| vec![[x - dx, y - dy], [x + dx, y + dy]]);
-            scene.shapes.push(Shape::Path {
-                lines: lines.to_vec(),
-                closed: false,
-                fill: None,
-                stroke: Some(stroke),
-            });
-            return;
-        }
-        Marker::Square => &[[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]],
-        Marker::Triangle => &[[0.0, -1.2], [1.1, 0.8], [-1.1, 0.8]],
-        Marker::Diamond => &[[0.0, -1.25], [1.25, 0.0], [0.0, 1.25], [-1.25, 0.0]],
-    };
-    let placed = corners
-        .iter()
-        .map(|[dx, dy]| [at[0] + radius * dx, at[1] + radius * dy]);
-    scene.shapes.push(Shape::Path {
-        lines: vec![placed.collect()],
-        closed: true,
-        fill: Some((Colour::WHITE, 1.0)),
-        stroke: Some(stroke),
-    });
 }
 
 #[cfg(test)]

@@ -54,6 +54,19 @@ pub enum Error {
     /// A resolution that gives no picture or one too large for memory.
     #[error("resolution {0} is out of range: accepted are 20 to 2400 dots per inch")]
     Resolution(f64),
+    /// A page beyond what is drawn to the micrometre.
+    #[error("a figure of {width} mm by {height} mm is out of range: accepted are up to {most} mm each way")]
+    Size {
+        /// Its width.
+        width: f64,
+        /// Its height.
+        height: f64,
+        /// What is accepted.
+        most: f64,
+    },
+    /// The chart library refused the chart.
+    #[error("the chart cannot be drawn: {0}")]
+    Chart(String),
     /// The rasteriser refused the drawing.
     #[error("the drawing cannot be rasterised: {0}")]
     Raster(String),

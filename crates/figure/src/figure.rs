@@ -187,6 +187,8 @@ const BETWEEN: f64 = 3.0;
 const NEAR: f64 = 1.2;
 /// Smallest frame.
 const LEAST: f64 = 8.0;
+/// Largest page: ten metres, which plotters' whole micrometres hold two hundred times.
+const MOST: f64 = 1e4;
 
 impl Figure {
     /// An empty figure; the description is its accessible title.
@@ -266,7 +268,7 @@ impl Figure {
     ///
     /// # Errors
     /// [`Error::Range`] for an axis or colour scale without extent, [`Error::NoColourBar`] for coloured values that no bar explains,
-    /// [`Error::NoRoom`] and [`Error::Grid`] for a page too small or empty, [`Error::Character`] for text beyond the font.
+    /// [`Error::NoRoom`], [`Error::Size`] and [`Error::Grid`] for a page too small, too large or empty, [`Error::Character`] for text beyond the font.
     pub fn svg(&self) -> Result<String, Error> {
         let page = self.draw()?;
         Ok(page.scene.svg(&self.description, &page.font))
@@ -321,6 +323,11 @@ impl Figure {
         };
         if self.panels.is_empty() {
             return Err(empty(0, 0));
+        }
+        let [width, height] = self.size;
+        if !(width <= MOST && height <= MOST) {
+            let most = MOST;
+            return Err(Error::Size { width, height, most });
         }
         for (index, (place, panel)) in self.panels.iter().enumerate() {
             if place.row >= self.rows.len() || place.last() >= self.columns.len() {

@@ -1,9 +1,11 @@
 //! Legends and colour bars: what lines, markers and colours mean. They stand beside the data, never on it.
 
+use crate::axes::TICK;
 use crate::chart::{Chart, Layer, Style};
 use crate::colour::{Colour, ColourScale};
-use crate::draw::{GAP, Page, SMALL, TICK, draw_marker, frame};
+use crate::draw::{Page, SMALL};
 use crate::error::Error;
+use crate::layers::draw_marker;
 use crate::scene::{Rect, Shape, Stroke};
 use crate::text::Anchor;
 use crate::ticks;
@@ -142,12 +144,13 @@ impl Swatch {
             }
             Swatch::Rule(stroke) => page.scene.shapes.push(line(stroke)),
             Swatch::Area(colour, opacity, stroke) => {
-                let mut shape = frame(&Rect::new(x, y - 0.9, x + SAMPLE, y + 0.9));
-                if let Shape::Path { fill, stroke: edge, .. } = &mut shape {
-                    *fill = Some((colour, opacity));
-                    *edge = Some(stroke.unwrap_or(Stroke::solid(Colour::GREY, 0.1)));
-                }
-                page.scene.shapes.push(shape);
+                let (right, top, bottom) = (x + SAMPLE, y - 0.9, y + 0.9);
+                page.scene.shapes.push(Shape::Path {
+                    lines: vec![vec![[x, top], [right, top], [right, bottom], [x, bottom]]],
+                    closed: true,
+                    fill: Some((colour, opacity)),
+                    stroke: Some(stroke.unwrap_or(Stroke::solid(Colour::GREY, 0.1))),
+                });
             }
         }
     }
@@ -168,7 +171,7 @@ pub(crate) fn bar_width(scale: &ColourScale, height: f64, page: &Page) -> Result
         texts = texts.max(page.font.line(&tick.text, SMALL)?.width);
     }
     let label = if scale.label.is_empty() { 0.0 } else { 1.5 * SMALL };
-    Ok(AWAY + BAR + TICK + GAP + texts + label)
+    Ok(AWAY + BAR + 2.0 * TICK + texts + label)
 }
 
 fn bar_ticks(scale: &ColourScale, height: f64) -> Vec<ticks::Tick> {
@@ -219,12 +222,12 @@ pub(crate) fn draw_bar(page: &mut Page, scale: &ColourScale, beside: Rect, beyon
             fill: None,
             stroke: Some(Stroke::solid(Colour::INK, 0.15)),
         });
-        let place = [right + TICK + GAP, at(t) + 0.36 * SMALL];
+        let place = [right + 2.0 * TICK, at(t) + 0.36 * SMALL];
         texts = texts.max(page.font.line(&tick.text, SMALL)?.width);
         page.text(&tick.text, SMALL, place, Anchor::Start, false, Colour::INK)?;
     }
     let place = [
-        right + TICK + GAP + texts + 1.25 * SMALL,
+        right + 2.0 * TICK + texts + 1.25 * SMALL,
         (beside.top + beside.bottom) / 2.0,
     ];
     page.text(&scale.label, SMALL, place, Anchor::Middle, true, Colour::INK)

@@ -1,7 +1,8 @@
 //! Figures at printed size: charts, maps and surfaces as SVG and PNG.
 //!
 //! The crate draws. It knows nothing of subdivision, reads and writes no files, and needs no font of the system: characters are outlines of
-//! an embedded DejaVu Sans. The PNG is the rasterised SVG. Equal figures give equal bytes.
+//! an embedded DejaVu Sans. Axes, grids, ticks and series of charts are drawn by plotters. The PNG is the rasterised SVG. Equal figures give
+//! equal bytes.
 //!
 //! A [`Figure`] is as wide as one or two printed columns and holds [`Panel`]s on a grid. A panel shows a [`Chart`] (two [`Axis`] and layers:
 //! lines, markers, bands, rules, coloured cells, texts) or a [`Surface`] in space. Colours of values come from a [`ColourScale`], which a colour bar must explain.
@@ -46,12 +47,15 @@
 //! at the right of its panel, or of the figure. [`Layout::faults`] finds texts that leave the page or overlap and legends that cover data, and is
 //! meant for tests of figures.
 
+mod axes;
+mod backend;
 mod chart;
 mod clip;
 mod colour;
 mod draw;
 mod error;
 mod figure;
+mod layers;
 mod legend;
 mod raster;
 mod scene;

@@ -154,6 +154,10 @@ fn what_cannot_be_drawn_is_refused_with_numbers() {
     ));
     let tiny = Figure::new(Width::Millimetres(15.0), 50.0, "").panel(0, 0, Panel::new(chart((0.0, 1.0))));
     assert!(matches!(tiny.svg(), Err(Error::NoRoom { .. })));
+    for size in [f64::NAN, f64::INFINITY, 1e9] {
+        let large = Figure::new(Width::One, size, "").panel(0, 0, Panel::new(chart((0.0, 1.0))));
+        assert!(matches!(large.svg(), Err(Error::Size { .. })), "{size}");
+    }
     assert!(figure().png(f64::NAN).unwrap_err().to_string().contains("20 to 2400"));
     assert!(figure().png(1.0).is_err());
 }
