@@ -2,19 +2,19 @@
 //! **Oracle**: the built-in constructors. **Input**: the files in `data/schemes/`, which serve as examples for users.
 
 use eigenring_scheme::families::{catmull_clark, doo_sabin, tension};
-use eigenring_scheme::user::UserScheme;
+use eigenring_scheme::user::{Reading, UserScheme};
 use eigenring_scheme::{Error, Scheme};
 use eigenring_spectral::{LocalSystem, local_matrix};
 use eigenring_tests::{Comparison, by_block};
 
 fn compare(text: &str, valences: &[usize], built_in: impl Fn(usize) -> Result<Scheme<f64>, Error>) {
-    let user = UserScheme::parse(text, "unnamed").unwrap();
+    let user = UserScheme::parse(text, "unnamed", Reading::default()).unwrap();
     assert_eq!(user.valences().collect::<Vec<_>>(), valences);
     let mut matrices = Comparison::new("entries of the local matrix", 1e-15);
     let mut spectra = Comparison::new("eigenvalues", 1e-14);
     for &n in valences {
         let (ours, theirs) = (user.scheme::<f64>(n).unwrap(), built_in(n).unwrap());
-        assert_eq!(ours.degree, theirs.degree);
+        assert_eq!(ours.degree(), theirs.degree());
         assert_eq!(ours.lattice(), theirs.lattice());
         assert!(ours.limit().is_rotation_symmetric() && ours.limit().has_mirror());
         assert_eq!(ours.closed_rings(), theirs.closed_rings());

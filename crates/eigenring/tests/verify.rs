@@ -6,7 +6,7 @@ mod common;
 
 use common::{Place, csv_rows, has_fields, number};
 use eigenring_certify::range::RangeCertificate;
-use eigenring_certify::{Certificate, Status};
+use eigenring_certify::{Certificate, Statement, Status};
 use serde_json::Value;
 
 /// Runs `verify` with JSON output, which must end with the code given.
@@ -92,8 +92,13 @@ fn fields_and_exit_codes() {
             .iter()
             .map(|c| c["name"].as_str().unwrap())
             .collect();
-        let expected = Statement::ALL.into_iter().filter(|statement| *statement != Statement::Levels);
-        assert!(names.iter().copied().eq(expected.map(Statement::name)), "{line}: {names:?}");
+        let expected = Statement::ALL
+            .into_iter()
+            .filter(|statement| *statement != Statement::Levels);
+        assert!(
+            names.iter().copied().eq(expected.map(Statement::name)),
+            "{line}: {names:?}"
+        );
         for check in found["checks"].as_array().unwrap() {
             has_fields(check, "name status holds rigorous margin enclosure witness reached");
             let proven = check["status"] == "proven";
