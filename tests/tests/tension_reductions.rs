@@ -30,7 +30,7 @@ fn order_three_without_tension_is_doo_sabin_on_regular_faces_only() {
     for n in 3..=20 {
         let uniform = "doo-sabin:uniform".parse::<Spec>().unwrap().scheme::<f64>(n).unwrap();
         let matrix = local_matrix(uniform.limit(), 0).unwrap();
-        let original = local_matrix(&doo_sabin::<f64>(n).unwrap().limit, 0).unwrap();
+        let original = local_matrix(doo_sabin::<f64>(n).unwrap().limit(), 0).unwrap();
         for j in 0..n {
             let part = match j {
                 0 => 3 * n - 3,
