@@ -6,7 +6,7 @@
 //! must say what it claims.
 
 use eigenring_scheme::lambda::{Bounds, Domain, LambdaTable, Relaxation};
-use eigenring_scheme::{Error, FourierNet, Lattice, Level, Numbering, Scheme, Site, Spec, registry};
+use eigenring_scheme::{Error, FourierNet, Lattice, Level, Numbering, Scheme, Site, Spec, Symmetry, registry};
 use eigenring_spectral::{LocalSystem, Matrix, fourier_block, local_matrix, numbering};
 use eigenring_tests::Comparison;
 use std::f64::consts::TAU;
@@ -146,7 +146,7 @@ fn nets_are_as_claimed_and_rows_are_affine() {
         let label = format!("{spec}, N = {}", scheme.valence());
         let rings = scheme.closed_rings().unwrap();
         assert_eq!(
-            (scheme.lattice(), scheme.degree, rings),
+            (scheme.lattice(), scheme.degree().unwrap(), rings),
             (expected.form)(&spec),
             "{label}"
         );
