@@ -315,7 +315,10 @@ impl Facts {
         let once = |seen: &Seen| seen.winding.is_some_and(|number| number.abs() == 1);
         let twice = |seen: &Seen| settles(seen) && seen.winding.is_some_and(|number| number.abs() != 1);
         let holds = self.seen.iter().all(|seen| settles(seen) && once(seen)) && self.truth("dominant") == Truth::Holds;
-        let third = self.others.get(2).map_or(0.0, |other| other.value.norm() / self.radius());
+        let third = self
+            .others
+            .get(2)
+            .map_or(0.0, |other| other.value.norm() / self.radius());
         let decided = !(SLOW..1.0 - 0.1 * APART).contains(&third);
         let never = self.seen.iter().all(|seen| never(seen) || twice(seen)) && decided;
         let fails = never || self.truth("dominant") == Truth::Fails;

@@ -134,6 +134,18 @@ pub fn winding(local: &Local, degree: usize, map: &[[f64; 2]], around: [f64; 2])
         (0..=last).for_each(|q| side(Patch { sector, p: last, q }, false));
         (0..=last).rev().for_each(|p| side(Patch { sector, p, q: last }, true));
     }
+    // an oblong ring is made round, which keeps its winding number: with the Cholesky factor of its second moments
+    let moment = |i: usize, j: usize| curve.iter().map(|point| point[i] * point[j]).sum::<f64>();
+    let first = moment(0, 0).sqrt();
+    let below = moment(0, 1) / first;
+    let second = (moment(1, 1) - below * below).sqrt();
+    if !(second > 1e-6 * first.max(below.abs())) {
+        return None;
+    }
+    for point in &mut curve {
+        let x = point[0] / first;
+        *point = [x, (point[1] - below * x) / second];
+    }
     let radius = |point: &[f64; 2]| point[0].hypot(point[1]);
     let largest = curve.iter().map(radius).fold(0.0, f64::max);
     let mut turned = 0.0;
