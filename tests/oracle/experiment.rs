@@ -3,7 +3,7 @@
 //! The data's size is taken out after every step, and so is a common shift, which refinement keeps; neither changes a normal.
 
 use super::local::Local;
-use super::spline::{control, evaluate, patches, winding};
+use super::spline::{At, control, evaluate, patches, winding};
 
 /// What was seen after many refinements.
 #[derive(Clone, Debug, Default)]
@@ -61,12 +61,12 @@ fn normalised(mut data: Vec<[f64; 3]>) -> Vec<[f64; 3]> {
 }
 
 fn normals(degree: usize, all: &[Vec<usize>], data: &[[f64; 3]]) -> Option<([f64; 3], f64)> {
-    const SAMPLES: usize = 3;
+    let at = At::samples(degree, 3);
     let mut normals = Vec::new();
     for places in all {
-        for i in 0..=SAMPLES {
-            for j in 0..=SAMPLES {
-                let jet = evaluate(degree, places, data, [i, j].map(|k| k as f64 / SAMPLES as f64));
+        for u in &at {
+            for v in &at {
+                let jet = evaluate(places, data, u, v);
                 let (a, b) = (jet.u, jet.v);
                 let cross = [
                     a[1] * b[2] - a[2] * b[1],

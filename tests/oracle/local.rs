@@ -8,7 +8,7 @@ use super::model::{CENTRE, Model, Point, Row, ring};
 use super::number::{Q, double, ratio};
 use super::regular::{self, Regular};
 use faer::{Mat, c64};
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::collections::BTreeMap;
 
 /// Points beyond this number are not looked at: their eigenvalues would take too long for a test.
@@ -50,6 +50,8 @@ pub struct Local {
     pub defect: Q,
     /// The smallest weight, exactly, and the point made with it.
     pub smallest: (Q, Point),
+    /// The largest denominator of a weight in doubles.
+    pub denominator: f64,
 }
 
 impl Local {
@@ -65,11 +67,13 @@ impl Local {
         if 2 * bound * bound * model.n as i64 > 4 * MAX_POINTS as i64 {
             return Err(format!("special stencils up to ring {bound}"));
         }
+        let turns = model.turns();
         let mut rows: BTreeMap<Point, Row> = BTreeMap::new();
         let mut special = None;
         for r in 0..=bound + 4 {
             for point in model.ring(r) {
-                if r > bound && point.0 != 0 {
+                // one sector stands for all where all have the same rules, which they have beyond the special points
+                if point.0 != 0 && (turns || r > bound) {
                     continue;
                 }
                 let row = model.row(point)?;
@@ -79,7 +83,14 @@ impl Local {
                 rows.insert(point, row);
             }
         }
-        let (mut defect, mut smallest) = (Q::zero(), (ratio(2, 1), CENTRE));
+        let (mut defect, mut smallest, mut denominator) = (Q::zero(), (ratio(2, 1), CENTRE), 1.0);
+        let passes = model.passes.iter();
+        let lines = passes
+            .clone()
+            .flat_map(|pass| pass.line.iter().flatten().map(|(_, weight)| weight));
+        for weight in lines.chain(passes.flat_map(|pass| pass.special.values().flat_map(Row::values))) {
+            denominator = f64::max(denominator, weight.denom().to_f64().unwrap_or(f64::INFINITY));
+        }
         for (&point, row) in &rows {
             let off = (row.values().sum::<Q>() - Q::one()).abs();
             defect = if off > defect { off } else { defect };
@@ -94,8 +105,8 @@ impl Local {
                 let inner = (special.unwrap_or(0) + degree / 2) / 2 + 1;
                 (inner, inner - degree / 2, 2 * inner - 1 - degree / 2 + degree)
             }
-            // no patches: rings of regular rules, enough for all that their own eigenvalues can be
-            Regular::Other(_) => (bound + 1, bound + 1, 2 * bound + reach + 2),
+            // no patches: rings of regular rules, two beyond the smallest closed set, as further ones only add zeros
+            Regular::Other(_) => (bound + 1, bound + 1, bound.max(reach / 2) + 2),
         };
         let mut open: Vec<Point> = (first.max(0)..=last).flat_map(|r| model.ring(r)).collect();
         let mut acting: BTreeMap<Point, Row> = BTreeMap::new();
@@ -103,10 +114,18 @@ impl Local {
             if acting.contains_key(&point) {
                 continue;
             }
-            let row = match rows.get(&point) {
-                Some(row) => row.clone(),
-                None => model.row(point)?,
+            let (stands, by) = if turns {
+                ((0, point.1, point.2), point.0)
+            } else {
+                (point, 0)
             };
+            let row = match rows.get(&stands) {
+                Some(row) => row.clone(),
+                None => model.row(stands)?,
+            };
+            rows.entry(stands).or_insert_with(|| row.clone());
+            let turned = |(source, weight)| (model.turned(source, by), weight);
+            let row: Row = row.into_iter().map(turned).collect();
             open.extend(row.keys().filter(|source| !acting.contains_key(source)));
             acting.insert(point, row);
             if acting.len() > MAX_POINTS {
@@ -122,7 +141,7 @@ impl Local {
                 acting.get(&map(point)) == Some(&moved)
             })
         };
-        let rotation = image(&|point| model.turned(point, 1));
+        let rotation = turns || image(&|point| model.turned(point, 1));
         let mirror = image(&|point| model.reflected(point));
         let mut points: Vec<Point> = acting.keys().copied().collect();
         points.sort_by_key(|&point| (ring(point), point));
@@ -145,6 +164,7 @@ impl Local {
             mirror,
             defect,
             smallest,
+            denominator,
         })
     }
 

@@ -207,6 +207,19 @@ impl Model {
         Ok(row)
     }
 
+    /// Whether the special stencils of every pass are the same in all sectors, so that rows turn with their points.
+    pub fn turns(&self) -> bool {
+        self.passes.iter().all(|pass| {
+            pass.special.iter().all(|(&point, row)| {
+                let turned: Row = row
+                    .iter()
+                    .map(|(&source, weight)| (self.turned(source, 1), weight.clone()))
+                    .collect();
+                pass.special.get(&self.turned(point, 1)) == Some(&turned)
+            })
+        })
+    }
+
     /// What the row would be by a line alone.
     pub fn regular_row(&self, line: &[Vec<(i64, Q)>], point: Point) -> Option<Row> {
         let mut row = self.tensor(line, point).ok()?;

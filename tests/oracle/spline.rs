@@ -79,35 +79,58 @@ pub fn control(local: &Local, degree: usize, patch: Patch) -> Vec<usize> {
     places
 }
 
+/// The basis at a parameter and its derivatives, worked out once for all patches.
+#[derive(Clone, Debug)]
+pub struct At {
+    values: Vec<f64>,
+    slopes: Vec<f64>,
+}
+
+impl At {
+    /// At `t`.
+    pub fn new(degree: usize, t: f64) -> At {
+        At {
+            values: basis(degree, t),
+            slopes: derivatives(degree, t),
+        }
+    }
+
+    /// At `0, 1/samples, .., 1`.
+    pub fn samples(degree: usize, samples: usize) -> Vec<At> {
+        let at = |i: usize| At::new(degree, i as f64 / samples as f64);
+        (0..=samples).map(at).collect()
+    }
+}
+
 /// A patch of the surface with these control values, at `(u, v)`.
-pub fn evaluate<const D: usize>(degree: usize, places: &[usize], values: &[[f64; D]], [u, v]: [f64; 2]) -> Jet<D> {
-    let sum = |in_u: Vec<f64>, in_v: Vec<f64>| {
-        let mut sum = [0.0; D];
-        for (row, weight) in places.chunks(degree + 1).zip(in_v) {
-            for (&place, inner) in row.iter().zip(&in_u) {
-                sum.iter_mut()
-                    .zip(&values[place])
-                    .for_each(|(sum, value)| *sum += weight * inner * value);
+pub fn evaluate<const D: usize>(places: &[usize], values: &[[f64; D]], u: &At, v: &At) -> Jet<D> {
+    let mut jet = Jet {
+        value: [0.0; D],
+        u: [0.0; D],
+        v: [0.0; D],
+    };
+    for (j, row) in places.chunks(u.values.len()).enumerate() {
+        for (i, &place) in row.iter().enumerate() {
+            let value = &values[place];
+            for axis in 0..D {
+                jet.value[axis] += u.values[i] * v.values[j] * value[axis];
+                jet.u[axis] += u.slopes[i] * v.values[j] * value[axis];
+                jet.v[axis] += u.values[i] * v.slopes[j] * value[axis];
             }
         }
-        sum
-    };
-    Jet {
-        value: sum(basis(degree, u), basis(degree, v)),
-        u: sum(derivatives(degree, u), basis(degree, v)),
-        v: sum(basis(degree, u), derivatives(degree, v)),
     }
+    jet
 }
 
 /// The smallest and largest Jacobian of a plane map, at `(samples + 1)^2` places of each patch of the first `sectors` sectors.
 pub fn jacobian(local: &Local, degree: usize, map: &[[f64; 2]], sectors: usize, samples: usize) -> [f64; 2] {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    let at = At::samples(degree, samples);
     for patch in patches(local, sectors) {
         let places = control(local, degree, patch);
-        for i in 0..=samples {
-            for j in 0..=samples {
-                let at = [i, j].map(|k| k as f64 / samples as f64);
-                let jet = evaluate(degree, &places, map, at);
+        for u in &at {
+            for v in &at {
+                let jet = evaluate(&places, map, u, v);
                 let determinant = jet.u[0] * jet.v[1] - jet.u[1] * jet.v[0];
                 (low, high) = (low.min(determinant), high.max(determinant));
             }
@@ -120,13 +143,13 @@ pub fn jacobian(local: &Local, degree: usize, map: &[[f64; 2]], sectors: usize, 
 pub fn winding(local: &Local, degree: usize, map: &[[f64; 2]], around: [f64; 2]) -> Option<i64> {
     const SAMPLES: usize = 8;
     let last = 2 * local.inner - 1;
+    let at = At::samples(degree, SAMPLES);
     let mut curve: Vec<[f64; 2]> = Vec::new();
     let mut side = |patch: Patch, along_u: bool| {
         let places = control(local, degree, patch);
         for i in 0..SAMPLES {
-            let t = i as f64 / SAMPLES as f64;
-            let at = if along_u { [1.0 - t, 1.0] } else { [1.0, t] };
-            let value = evaluate(degree, &places, map, at).value;
+            let (u, v) = if along_u { (SAMPLES - i, SAMPLES) } else { (SAMPLES, i) };
+            let value = evaluate(&places, map, &at[u], &at[v]).value;
             curve.push([value[0] - around[0], value[1] - around[1]]);
         }
     };

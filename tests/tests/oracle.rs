@@ -9,7 +9,7 @@ use eigenring_tests::oracle::facts::{Facts, Truth};
 use eigenring_tests::oracle::local::Local;
 use eigenring_tests::oracle::model::Model;
 use eigenring_tests::oracle::regular::{self, Regular};
-use eigenring_tests::oracle::spline::{Patch, control, evaluate, patches};
+use eigenring_tests::oracle::spline::{At, Patch, control, evaluate, patches};
 
 fn case(name: &str) -> String {
     let path = format!("{}/data/cases/{name}.toml", env!("CARGO_MANIFEST_DIR"));
@@ -182,13 +182,10 @@ fn patches_are_limits_of_refinement() {
                 }
             }
             let places: Vec<usize> = (0..refined.len()).collect();
-            let coarse = evaluate(
-                degree,
-                &control(&local, degree, patch),
-                &values,
-                [(i as f64 + 0.3) / 2.0, (j as f64 + 0.8) / 2.0],
-            );
-            let found = evaluate(degree, &places, &refined, [0.3, 0.8]);
+            let at = |t: f64| At::new(degree, t);
+            let (u, v) = (at((i as f64 + 0.3) / 2.0), at((j as f64 + 0.8) / 2.0));
+            let coarse = evaluate(&control(&local, degree, patch), &values, &u, &v);
+            let found = evaluate(&places, &refined, &at(0.3), &at(0.8));
             comparison.check(format!("{n} {patch:?}"), found.value[0], coarse.value[0]);
         }
     }
