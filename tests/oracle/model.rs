@@ -93,7 +93,7 @@ fn tables<'t, 'a>(table: &'t Table<'a>, key: &str) -> Result<Vec<&'t Table<'a>>,
 fn place(table: &Table) -> Result<(i64, i64), String> {
     let at = array(table, "at")?;
     match (
-        integer(at.get(0).map(|v| v.get_ref())),
+        integer(at.first().map(|v| v.get_ref())),
         integer(at.get(1).map(|v| v.get_ref())),
     ) {
         (Some(x), Some(y)) if at.len() == 2 => Ok((x, y)),
@@ -386,7 +386,7 @@ fn taps(class: &DeValue) -> Result<Vec<(i64, Q)>, String> {
     let class = class.as_array().ok_or("line is no list of lists")?;
     let tap = |tap: &DeValue| {
         let tap = tap.as_array().filter(|tap| tap.len() == 2).ok_or("a tap is no pair")?;
-        let offset = integer(tap.get(0).map(|v| v.get_ref())).ok_or("an offset is no integer")?;
+        let offset = integer(tap.first().map(|v| v.get_ref())).ok_or("an offset is no integer")?;
         Ok((offset, weight(tap.get(1).map(|v| v.get_ref()), "line")?))
     };
     class.iter().map(|value| tap(value.get_ref())).collect()

@@ -68,7 +68,7 @@ pub fn degree(composed: &Composed) -> Option<usize> {
         if all.get(&(2 * k - order)) != Some(&&binomial) {
             return None;
         }
-        binomial = binomial * ratio(order - k, k + 1);
+        binomial *= ratio(order - k, k + 1);
     }
     (all.len() as i64 == order + 1).then_some(order as usize - 1)
 }

@@ -112,10 +112,10 @@ pub fn evaluate<const D: usize>(places: &[usize], values: &[[f64; D]], u: &At, v
     for (j, row) in places.chunks(u.values.len()).enumerate() {
         for (i, &place) in row.iter().enumerate() {
             let value = &values[place];
-            for axis in 0..D {
-                jet.value[axis] += u.values[i] * v.values[j] * value[axis];
-                jet.u[axis] += u.slopes[i] * v.values[j] * value[axis];
-                jet.v[axis] += u.values[i] * v.slopes[j] * value[axis];
+            for (axis, x) in value.iter().enumerate() {
+                jet.value[axis] += u.values[i] * v.values[j] * x;
+                jet.u[axis] += u.slopes[i] * v.values[j] * x;
+                jet.v[axis] += u.values[i] * v.slopes[j] * x;
             }
         }
     }

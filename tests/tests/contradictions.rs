@@ -65,7 +65,11 @@ fn examine<S: Strategy>(
     };
     let mut runner = TestRunner::new_with_rng(config, TestRng::deterministic_rng(RngAlgorithm::ChaCha));
     let mut tally = Tally::default();
-    for _ in 0..cases {
+    // a longer search, by hand: EIGENRING_CASES=20 tries twenty times as many, of which these are the first
+    let factor = std::env::var("EIGENRING_CASES")
+        .ok()
+        .and_then(|factor| factor.parse().ok());
+    for _ in 0..cases * factor.unwrap_or(1) {
         let mut tree = strategy.new_tree(&mut runner).expect("the strategies reject nothing");
         let mut found = file(&tree.current());
         let Some(mut why) = judge(&found, &also, &mut tally) else {
@@ -164,9 +168,9 @@ fn line_file(&(n, degree, [a, b, c], mirror, wide): &(usize, usize, [i64; 3], bo
 
 #[test]
 fn lines_that_are_no_splines() {
-    let tally = examine(60, any_line(), line_file, nothing_else);
+    let tally = examine(50, any_line(), line_file, nothing_else);
     finish(&tally);
-    assert!(tally.certified >= 30 && tally.decided >= 120, "{tally:?}");
+    assert!(tally.certified >= 25 && tally.decided >= 100, "{tally:?}");
 }
 
 /// Midpoints and smoothings, or centroids, as several passes; the last numbers disturb one of them.
@@ -205,9 +209,9 @@ fn factored(&(n, dual, factors, degree, by, shift): &(usize, bool, usize, usize,
 
 #[test]
 fn splines_in_factors_and_what_comes_near() {
-    let tally = examine(30, factors(), factored, nothing_else);
+    let tally = examine(24, factors(), factored, nothing_else);
     finish(&tally);
-    assert!(tally.known >= 25, "{tally:?}");
+    assert!(tally.known >= 20, "{tally:?}");
 }
 
 /// Factors that are a spline's together stay decidable.
@@ -272,7 +276,9 @@ fn disturbed(&(n, kind, by, unequal): &(usize, usize, i64, [i64; 8])) -> File {
             let mut centre = Special::new((0, 0), None);
             centre.add((0, 0), 0, q(13, 20));
             let weight = |i: usize| q(7 * unequal[i], 20 * total);
-            (0..n).for_each(|i| drop(centre.add((2, 0), i as i64, weight(i))));
+            for i in 0..n {
+                centre.add((2, 0), i as i64, weight(i));
+            }
             let missing = q(7, 20) - (0..n).map(weight).sum::<Q>();
             centre.terms[0].2 += missing;
             pass.special = vec![centre];
@@ -355,69 +361,87 @@ fn special_stencils_far_out() {
 
 // --- d: ties
 
-/// One-ring schemes with lambda and, in one block, lambda^2 twice; `lean` is what couples them.
-fn ties() -> impl Strategy<Value = (bool, usize, i64, i64, i64, i64)> {
-    // in block 0 or 2, valence, lambda in twentieths, e1 and beta in fortieths, coupling in fortieths
-    let valence = proptest::sample::select(vec![3_usize, 4, 4, 6]);
-    (
-        proptest::bool::weighted(0.3),
-        valence,
-        8_i64..=13,
-        5_i64..=7,
-        0_i64..=2,
-        prop_oneof_i64(&[0, 0, 1, 2, 4, -2]),
-    )
+/// A one-ring scheme with lambda and, in one block, `lambda^2` twice.
+#[derive(Clone, Copy, Debug)]
+struct Tie {
+    /// In block 2 at valence 6, or in block 0.
+    in_two: bool,
+    n: usize,
+    /// A fraction. With powers of two all is exact in doubles as well, where proofs are easily too bold.
+    lambda: (i64, i64),
+    /// In thirty-seconds.
+    e1: i64,
+    /// In thirty-seconds.
+    beta: i64,
+    /// What couples the two, in sixteenths.
+    lean: i64,
 }
 
-/// The nine weights, in the order of the file: f1, f2, f3, d1, d2, e1, e2, alpha, beta.
-fn tied_weights(&(in_two, n, lambda, e1, beta, lean): &(bool, usize, i64, i64, i64, i64)) -> (usize, [Q; 9]) {
+fn ties() -> impl Strategy<Value = Tie> {
+    let n = proptest::sample::select(vec![4_usize, 4, 6, 3]);
+    let lambda = proptest::sample::select(vec![(1, 2), (1, 2), (3, 8), (5, 8), (2, 5), (9, 20), (3, 5)]);
+    let beta = prop_oneof_i64(&[0, 0, 1]);
+    let lean = prop_oneof_i64(&[0, 0, 1, 2, 4, -2]);
+    let all = (proptest::bool::weighted(0.2), n, lambda, 4_i64..=6, beta, lean);
+    all.prop_map(|(in_two, n, lambda, e1, beta, lean)| Tie {
+        in_two,
+        n,
+        lambda,
+        e1,
+        beta,
+        lean,
+    })
+}
+
+/// With `lean` this is the scheme of `jordan-one-ring-n4.toml`, nearly.
+const PLANTED: Tie = Tie {
+    in_two: false,
+    n: 4,
+    lambda: (1, 2),
+    e1: 4,
+    beta: 0,
+    lean: 0,
+};
+
+fn tied(tie: &Tie) -> File {
     let (one, two, half) = (Q::one(), q(2, 1), q(1, 2));
-    let (lambda, lean, beta) = (q(lambda, 20), q(lean, 40), q(beta, 40));
+    let (lambda, lean, beta) = (q(tie.lambda.0, tie.lambda.1), q(tie.lean, 16), q(tie.beta, 32));
     let square = &lambda * &lambda;
-    if in_two {
+    let file = |n: usize, weights: &[Q; 9]| File {
+        degree: 3,
+        n,
+        passes: vec![generated::one_ring(n, weights)],
+    };
+    if tie.in_two {
         // at valence 6 with e2 = 0 the blocks 1 and 2 are [[d2 +- e1, 0], [f2 .., f3]]
         let (d2, e1) = ((&lambda + &square) * &half, (&lambda - &square) * &half);
         let (f2, f3, e2) = (lean, square, Q::zero());
         let (f1, d1) = (&one - &two * &f2 - &f3, &one - &d2 - &two * &e1);
-        return (6, [f1, f2, f3, d1, d2, e1, e2, q(3, 8), q(0, 1)]);
+        return file(6, &[f1, f2, f3, d1, d2, e1, e2, q(3, 8), q(0, 1)]);
     }
-    // block 0 on E - V and F - V is [[d2 + 2 e1 - alpha, 2 e2 - beta], [2 f2 - alpha, f3 - beta]] = [[lambda^2, 0], [2 lean, lambda^2]]
-    let cosine = match n {
+    // block 0 on E - V and F - V is [[d2 + 2 e1 - alpha, 2 e2 - beta], [2 f2 - alpha, f3 - beta]], made [[lambda^2, 0], [2 lean, lambda^2]]
+    let cosine = match tie.n {
         3 => q(-1, 2),
         4 => Q::zero(),
         _ => half.clone(),
     };
-    let (e1, e2, f3) = (q(e1, 40), &beta * &half, &square + &beta);
-    // (d2 + 2 e1 c - lambda) (f3 - lambda) = 2 (1 + c) e2 f2 in block 1, with f2 = alpha/2 + lean and alpha = d2 + 2 e1 - lambda^2
+    let (e1, e2, f3) = (q(tie.e1, 32), &beta * &half, &square + &beta);
+    // (d2 + 2 e1 c - lambda) (f3 - lambda) = 2 (1 + c) e2 f2 in block 1, with f2 = alpha/2 + lean and alpha = d2 + 2 e1 - lambda^2;
+    // f3 < lambda as lambda (1 - lambda) >= 15/64 and beta <= 1/32
     let slope = &two * (&one + &cosine) * &e2 / (&f3 - &lambda);
     let constant = &lambda - &two * &e1 * &cosine + &slope * ((&two * &e1 - &square) * &half + &lean);
     let d2 = constant / (&one - &slope * &half);
     let alpha = &d2 + &two * &e1 - &square;
     let f2 = &alpha * &half + &lean;
     let (f1, d1) = (&one - &two * &f2 - &f3, &one - &d2 - &two * &e1 - &two * &e2);
-    (n, [f1, f2, f3, d1, d2, e1, e2, alpha, beta])
-}
-
-fn tied(case: &(bool, usize, i64, i64, i64, i64)) -> File {
-    // f3 = lambda leaves no room for lambda in block 1
-    let (n, weights) = match *case {
-        (false, _, lambda, _, beta, _) if lambda * lambda + 10 * beta == 20 * lambda => {
-            tied_weights(&(false, 4, 10, 0, 0, 0))
-        }
-        _ => tied_weights(case),
-    };
-    File {
-        degree: 3,
-        n,
-        passes: vec![generated::one_ring(n, &weights)],
-    }
+    file(tie.n, &[f1, f2, f3, d1, d2, e1, e2, alpha, beta])
 }
 
 #[test]
 fn equal_eigenvalues_of_second_order() {
     let (mut jordan, mut semisimple) = (0, 0);
     for lean in [0, 2] {
-        let file = tied(&(false, 4, 10, 5, 0, lean));
+        let file = tied(&Tie { lean, ..PLANTED });
         let facts = Facts::new(&file.text(), file.n).unwrap();
         assert!(
             (facts.ratio.unwrap() - 1.0).abs() < 1e-6,
@@ -543,9 +567,9 @@ fn any_one_ring(&(n, [f2, f3, e1, e2, alpha, beta, d2], unread): &(usize, [i64; 
 
 #[test]
 fn any_one_ring_weights() {
-    let tally = examine(90, any_weights(), any_one_ring, nothing_else);
+    let tally = examine(30, any_weights(), any_one_ring, nothing_else);
     finish(&tally);
-    assert!(tally.certified == tally.known && tally.decided >= 360, "{tally:?}");
+    assert!(tally.certified == tally.known && tally.decided >= 120, "{tally:?}");
 }
 
 /// Stencils of the first two rings with weights of any sort on the points around.
@@ -589,9 +613,9 @@ fn any_stencil_file((n, stencils, centre): &(usize, Vec<(usize, [i64; 5])>, i64)
 
 #[test]
 fn any_stencils_near_the_centre() {
-    let tally = examine(60, any_stencils(), any_stencil_file, nothing_else);
+    let tally = examine(24, any_stencils(), any_stencil_file, nothing_else);
     finish(&tally);
-    assert!(tally.certified >= 50 && tally.decided >= 200, "{tally:?}");
+    assert!(tally.certified >= 20 && tally.decided >= 80, "{tally:?}");
 }
 
 // --- planted faults: each kind can fail
@@ -605,7 +629,11 @@ fn each_kind_finds_lies() {
         disturbed(&(5, 0, 0, [1, 0, 0, 0, 0, 0, 0, 0])),
         disturbed(&(5, 2, 3, [0; 8])),
         far_special(&(4, 6, 0, 10, false, false)),
-        tied(&(true, 6, 10, 0, 0, 2)),
+        tied(&Tie {
+            in_two: true,
+            lean: 2,
+            ..PLANTED
+        }),
         printed(&(6, 0, 1, 14)),
         any_one_ring(&(5, [4, 4, 1, 1, 5, 1, 6], false)),
     ];

@@ -211,7 +211,9 @@ pub fn repeated_averaging(n: usize, pairs: usize, by: i64) -> Vec<Pass> {
     let half = || vec![vec![(-1, q(1, 2)), (1, q(1, 2))]];
     let centroid = || {
         let mut centre = Special::new((0, 0), None);
-        (0..n as i64).for_each(|i| drop(centre.add((1, 1), i, q(1, n as i64))));
+        for i in 0..n as i64 {
+            centre.add((1, 1), i, q(1, n as i64));
+        }
         vec![centre]
     };
     let step = |from, to, line, special| Pass {
