@@ -47,8 +47,8 @@ const OF_PATCHES: [&str; 7] = [
 impl Facts {
     /// The first status that the facts contradict, with the reason.
     ///
-    /// Three kinds: a status against the truth of its own statement; C1 as a whole against what refinement shows; and a number that is not the
-    /// one of the independent model.
+    /// Three kinds: a status against the truth of its own statement; C1 as a whole against what refinement
+    /// shows; and a number that is not the one of the independent model.
     pub fn contradicts(&self, checks: &[Check]) -> Option<String> {
         let single = checks.iter().find_map(|check| self.contradicts_one(check));
         single.or_else(|| self.contradicts_c1(checks))

@@ -1,6 +1,7 @@
 //! Refinement of irregular data by the rules themselves: do normals converge, and does the ring wind once?
 //!
-//! The data's size is taken out after every step, and so is a common shift, which refinement keeps; neither changes a normal.
+//! The data's size is taken out after every step, and so is a common shift, which refinement keeps; neither
+//! changes a normal.
 
 use super::local::Local;
 use super::spline::{At, control, evaluate, patches, winding};
@@ -10,7 +11,8 @@ use super::spline::{At, control, evaluate, patches, winding};
 pub struct Seen {
     /// The largest angle between a normal and their mean, in radians, after each of [`LEVELS`] refinements.
     pub spread: Vec<f64>,
-    /// The winding number of the outer boundary, projected along the mean normal, round the limit point after the last.
+    /// The winding number of the outer boundary, projected along the mean normal, round the limit point after
+    /// the last.
     pub winding: Option<i64>,
 }
 

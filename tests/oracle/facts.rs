@@ -58,15 +58,19 @@ pub struct Facts {
 
 /// Rows that miss 1 by less may be read as rounded: a dozen weights, each rounded to 12 decimals.
 pub const ROUNDED: f64 = 1e-11;
-/// Eigenvalues that are farther apart, relatively, are different: a double defective one is only found within some 1e-8.
+/// Eigenvalues that are farther apart, relatively, are different: a double defective one is only found within
+/// some 1e-8.
 const APART: f64 = 1e-6;
-/// Eigenvalues that are nearer are equal, if they are not chosen to mislead: defective ones of higher order are not.
+/// Eigenvalues that are nearer are equal, if they are not chosen to mislead: defective ones of higher order
+/// are not.
 const EQUAL: f64 = 1e-9;
-/// A third eigenvalue between this part of the leading pair and all of it dies out too slowly for the refinements that are made.
+/// A third eigenvalue between this part of the leading pair and all of it dies out too slowly for the
+/// refinements that are made.
 const SLOW: f64 = 0.97;
 /// Weights with larger denominators may be rounded ones, whose eigenvalues come close without being equal.
 const PLAIN: f64 = 1e8;
-/// A Jacobian whose smallest sample is this part of the largest keeps its sign between the samples (empirical, 9 x 9 of them).
+/// A Jacobian whose smallest sample is this part of the largest keeps its sign between the samples
+/// (empirical, 9 x 9 of them).
 const ONE_SIGN: f64 = 1e-2;
 
 impl Facts {
@@ -235,7 +239,8 @@ impl Facts {
         }
         let block = blocks.iter().find(|block| block.fourier == first.fourier)?;
         let real = first.value.im.abs() <= EQUAL;
-        // twice in one real block, or a pair of conjugates; in a complex block each stands for the conjugate one beside it
+        // twice in one real block, or a pair of conjugates; in a complex block each stands for the conjugate
+        // one beside it
         let (value, wanted) = match block.fourier {
             Some(_) if block.copies == 2 => (first.value, 1),
             Some(_) => return None,

@@ -1,8 +1,8 @@
 //! The points that act on the surface near the centre, their exact rows, symmetries, and the eigenvalues.
 //!
-//! The surface near the centre consists of images of an annulus of regular patches. Its control points, all that these read, and
-//! so on, are the points that act; what nobody reads has no effect. Where the rows are exactly symmetric under rotation the matrix is
-//! divided into Fourier blocks, otherwise it is taken whole.
+//! The surface near the centre consists of images of an annulus of regular patches. Its control points, all
+//! that these read, and so on, are the points that act; what nobody reads has no effect. Where the rows are
+//! exactly symmetric under rotation the matrix is divided into Fourier blocks, otherwise it is taken whole.
 
 use super::model::{CENTRE, Model, Point, Row, ring};
 use super::number::{Q, double, ratio};
@@ -72,7 +72,8 @@ impl Local {
         let mut special = None;
         for r in 0..=bound + 4 {
             for point in model.ring(r) {
-                // one sector stands for all where all have the same rules, which they have beyond the special points
+                // one sector stands for all where all have the same rules, which they have beyond the special
+                // points
                 if point.0 != 0 && (turns || r > bound) {
                     continue;
                 }
@@ -105,7 +106,8 @@ impl Local {
                 let inner = (special.unwrap_or(0) + degree / 2) / 2 + 1;
                 (inner, inner - degree / 2, 2 * inner - 1 - degree / 2 + degree)
             }
-            // no patches: rings of regular rules, two beyond the smallest closed set, as further ones only add zeros
+            // no patches: rings of regular rules, two beyond the smallest closed set, as further ones only
+            // add zeros
             Regular::Other(_) => (bound + 1, bound + 1, bound.max(reach / 2) + 2),
         };
         let mut open: Vec<Point> = (first.max(0)..=last).flat_map(|r| model.ring(r)).collect();
@@ -235,7 +237,8 @@ impl Local {
     }
 }
 
-/// Cosine and sine of `k/n` turns, exact at quarters: a coupling that vanishes there must not come back as a rounding error.
+/// Cosine and sine of `k/n` turns, exact at quarters: a coupling that vanishes there must not come back as a
+/// rounding error.
 pub fn turn(k: usize, n: usize) -> (f64, f64) {
     let k = k % n;
     if (4 * k).is_multiple_of(n) {
@@ -287,8 +290,8 @@ fn eigenvalues(matrix: &Mat<c64>, members: &[usize]) -> Vec<c64> {
     found.expect("the QR iteration converges on matrices of this size")
 }
 
-/// Strongly connected components of the graph of non-zero entries (Tarjan 1972): the matrix is block triangular with these
-/// diagonal blocks, and its exact zeros then cost no digits.
+/// Strongly connected components of the graph of non-zero entries (Tarjan 1972): the matrix is block
+/// triangular with these diagonal blocks, and its exact zeros then cost no digits.
 fn components(matrix: &Mat<c64>) -> Vec<Vec<usize>> {
     struct Search {
         reads: Vec<Vec<usize>>,

@@ -1,8 +1,9 @@
 //! What a scheme file says, read anew: passes on a fan of `n` sectors, and the rows that they compose to.
 //!
-//! The file's format is that of the pages for users; nothing here is taken from the library. A point is `(sector, x, y)` in
-//! half steps. A special stencil that is given for sector 0 alone holds in every sector, rotated; the centre is one point, and
-//! its stencil is what it is: a centre that reads the sectors unequally breaks the symmetry, whatever the file's form.
+//! The file's format is that of the pages for users; nothing here is taken from the library. A point is
+//! `(sector, x, y)` in half steps. A special stencil that is given for sector 0 alone holds in every sector,
+//! rotated; the centre is one point, and its stencil is what it is: a centre that reads the sectors unequally
+//! breaks the symmetry, whatever the file's form.
 
 use super::number::{self, Q};
 use num_traits::{One, Zero};
@@ -124,8 +125,8 @@ impl Model {
         }
     }
 
-    /// The canonical name of `(x, y)` in the coordinates of a sector. The two rays of the opposite quadrant continue the neighbours'
-    /// far spokes; its inside has a meaning only where four sectors meet.
+    /// The canonical name of `(x, y)` in the coordinates of a sector. The two rays of the opposite quadrant
+    /// continue the neighbours' far spokes; its inside has a meaning only where four sectors meet.
     pub fn fold(&self, sector: usize, x: i64, y: i64) -> Option<Point> {
         let turn = |by: usize| (sector + by) % self.n;
         Some(match (x, y) {
@@ -207,7 +208,8 @@ impl Model {
         Ok(row)
     }
 
-    /// Whether the special stencils of every pass are the same in all sectors, so that rows turn with their points.
+    /// Whether the special stencils of every pass are the same in all sectors, so that rows turn with their
+    /// points.
     pub fn turns(&self) -> bool {
         self.passes.iter().all(|pass| {
             pass.special.iter().all(|(&point, row)| {

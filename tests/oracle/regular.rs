@@ -14,7 +14,8 @@ pub enum Regular {
     Other(String),
 }
 
-/// The composed rule: for the target points of even and of odd index, the sources by their offset `2 source - target`.
+/// The composed rule: for the target points of even and of odd index, the sources by their offset `2 source -
+/// target`.
 pub type Composed = [BTreeMap<i64, Q>; 2];
 
 /// Composes the lines of all passes.
@@ -52,7 +53,8 @@ pub fn as_line(composed: &Composed) -> Vec<Vec<(i64, Q)>> {
     composed.iter().map(taps).collect()
 }
 
-/// The degree of the B-spline of which this is the centred mask: `C(d+1, k)/2^d` at the offsets `-(d+1), .., d+1`.
+/// The degree of the B-spline of which this is the centred mask: `C(d+1, k)/2^d` at the offsets `-(d+1), ..,
+/// d+1`.
 pub fn degree(composed: &Composed) -> Option<usize> {
     let all: BTreeMap<i64, &Q> = composed
         .iter()
@@ -73,8 +75,8 @@ pub fn degree(composed: &Composed) -> Option<usize> {
     (all.len() as i64 == order + 1).then_some(order as usize - 1)
 }
 
-/// The growth of the largest second divided difference in the last of eight refinements of fixed irregular data. It tends to 1 or
-/// less where second derivatives exist.
+/// The growth of the largest second divided difference in the last of eight refinements of fixed irregular
+/// data. It tends to 1 or less where second derivatives exist.
 pub fn growth(composed: &Composed) -> f64 {
     let line: Vec<Vec<(i64, f64)>> = composed
         .iter()

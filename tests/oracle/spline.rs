@@ -1,4 +1,5 @@
-//! The annulus of patches: uniform B-splines by the recursion of de Boor and Cox, sampled Jacobians and winding numbers.
+//! The annulus of patches: uniform B-splines by the recursion of de Boor and Cox, sampled Jacobians and
+//! winding numbers.
 
 use super::local::Local;
 
@@ -122,7 +123,8 @@ pub fn evaluate<const D: usize>(places: &[usize], values: &[[f64; D]], u: &At, v
     jet
 }
 
-/// The smallest and largest Jacobian of a plane map, at `(samples + 1)^2` places of each patch of the first `sectors` sectors.
+/// The smallest and largest Jacobian of a plane map, at `(samples + 1)^2` places of each patch of the first
+/// `sectors` sectors.
 pub fn jacobian(local: &Local, degree: usize, map: &[[f64; 2]], sectors: usize, samples: usize) -> [f64; 2] {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     let at = At::samples(degree, samples);
@@ -139,7 +141,8 @@ pub fn jacobian(local: &Local, degree: usize, map: &[[f64; 2]], sectors: usize, 
     [low, high]
 }
 
-/// How often the outer boundary winds round a place; `None` if it comes too near to it for the samples to tell.
+/// How often the outer boundary winds round a place; `None` if it comes too near to it for the samples to
+/// tell.
 pub fn winding(local: &Local, degree: usize, map: &[[f64; 2]], around: [f64; 2]) -> Option<i64> {
     const SAMPLES: usize = 8;
     let last = 2 * local.inner - 1;
@@ -157,7 +160,8 @@ pub fn winding(local: &Local, degree: usize, map: &[[f64; 2]], around: [f64; 2])
         (0..=last).for_each(|q| side(Patch { sector, p: last, q }, false));
         (0..=last).rev().for_each(|p| side(Patch { sector, p, q: last }, true));
     }
-    // an oblong ring is made round, which keeps its winding number: with the Cholesky factor of its second moments
+    // an oblong ring is made round, which keeps its winding number: with the Cholesky factor of its second
+    // moments
     let moment = |i: usize, j: usize| curve.iter().map(|point| point[i] * point[j]).sum::<f64>();
     let first = moment(0, 0).sqrt();
     let below = moment(0, 1) / first;
@@ -175,7 +179,8 @@ pub fn winding(local: &Local, degree: usize, map: &[[f64; 2]], around: [f64; 2])
     for (i, a) in curve.iter().enumerate() {
         let b = &curve[(i + 1) % curve.len()];
         let step = (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]);
-        // a step of more than a third of a half turn, or a point near the centre, says that samples are too few
+        // a step of more than a third of a half turn, or a point near the centre, says that samples are too
+        // few
         if radius(a) < 1e-3 * largest || step.abs() > 1.0 {
             return None;
         }

@@ -1,6 +1,7 @@
-//! **Claim**: of the files in `data/cases`, each an input on which a certificate once said more, or less, than is true, or one that was always
-//! right, `certify` now says what is right. **Oracle**: the independent model of scheme files; what is expected of it is stated
-//! beside what is expected of the certificate. The files were written for this purpose; none is made by the program.
+//! **Claim**: of the files in `data/cases`, each an input on which a certificate once said more, or less,
+//! than is true, or one that was always right, `certify` now says what is right. **Oracle**: the independent
+//! model of scheme files; what is expected of it is stated beside what is expected of the certificate. The
+//! files were written for this purpose; none is made by the program.
 
 use eigenring_certify::{Certificate, Check, Input, Status, certify, recheck};
 use eigenring_tests::oracle::claims::{c1, checks, status};
@@ -185,7 +186,8 @@ fn jordan_one_ring_n4_has_unbounded_curvature() {
     assert_ne!(status(&checks, "bounded_curvature"), Status::Proven);
 }
 
-/// The last digits make the rows miss 1 by 2e-21; they must be read, and may then be balanced with a remark, but not dropped.
+/// The last digits make the rows miss 1 by 2e-21; they must be read, and may then be balanced with a remark,
+/// but not dropped.
 #[test]
 fn long_decimal_n4_is_read_to_the_last_digit() {
     let text = read("long-decimal-n4.toml");
@@ -366,8 +368,8 @@ fn schemes_that_were_always_right_stay_proven() {
     }
 }
 
-/// lambda = 1/4 is a double defective eigenvalue, so that the criterion does not apply; but normals converge, like 1/m, the Jacobian keeps its sign
-/// and the ring winds once.
+/// lambda = 1/4 is a double defective eigenvalue, so that the criterion does not apply; but normals converge,
+/// like 1/m, the Jacobian keeps its sign and the ring winds once.
 #[test]
 fn order_three_at_a_triangle_is_not_refuted() {
     let text = "kind = \"stencils\"\ndegree = 2\n[[valence]]\nn = 3\n[[valence.pass]]\nfrom = \"face\"\nto = \"face\"\n\
@@ -407,7 +409,8 @@ fn honest() -> Certificate {
     certify(Input::from_spec(&"catmull-clark".parse().unwrap(), 5).unwrap(), 5).unwrap()
 }
 
-/// A second `bounded_curvature`, claimed to be proven, beside the refuted one; the digest is that of the content.
+/// A second `bounded_curvature`, claimed to be proven, beside the refuted one; the digest is that of the
+/// content.
 #[test]
 fn a_claim_beside_the_true_one_is_not_confirmed() {
     assert!(!confirmed(&read("duplicate-claim.json")));

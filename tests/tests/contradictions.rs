@@ -1,7 +1,8 @@
-//! **Claim**: no status of a certificate contradicts what is true, whatever the scheme file. **Oracle**: the independent model of scheme files.
-//! **Input**: generated files of six kinds, each built around a way in which a certificate could believe too much: regular parts that are no
-//! splines, broken symmetries, special stencils far out, equal eigenvalues with and without Jordan blocks, rounded weights, and
-//! weights of any sort. The sequence of cases is fixed.
+//! **Claim**: no status of a certificate contradicts what is true, whatever the scheme file. **Oracle**: the
+//! independent model of scheme files. **Input**: generated files of six kinds, each built around a way in
+//! which a certificate could believe too much: regular parts that are no splines, broken symmetries, special
+//! stencils far out, equal eigenvalues with and without Jordan blocks, rounded weights, and weights of any
+//! sort. The sequence of cases is fixed.
 
 mod generated;
 
@@ -50,7 +51,8 @@ fn judge(file: &File, also: &dyn Fn(&Facts, &[Check]) -> Option<String>, tally: 
     facts.contradicts(&checks).or_else(|| also(&facts, &checks))
 }
 
-/// Runs a fixed sequence of cases, all to the end, so that the message says how many fail; the first that fails is made simpler.
+/// Runs a fixed sequence of cases, all to the end, so that the message says how many fail; the first that
+/// fails is made simpler.
 fn examine<S: Strategy>(
     cases: usize,
     strategy: S,
@@ -114,7 +116,8 @@ fn nothing_else(_: &Facts, _: &[Check]) -> Option<String> {
     None
 }
 
-/// Every statement proven, then every one refuted: a list without any truth must be found out for most files of a kind.
+/// Every statement proven, then every one refuted: a list without any truth must be found out for most files
+/// of a kind.
 fn finds_lies(text: &str, n: usize) {
     let facts = Facts::new(text, n).unwrap();
     for name in eigenring_certify::NAMES {
@@ -318,7 +321,8 @@ fn broken_symmetries() {
 
 // --- c: special stencils far out
 
-/// Catmull-Clark with one or two points of a ring that keep some tenths of themselves and take the rest from further in.
+/// Catmull-Clark with one or two points of a ring that keep some tenths of themselves and take the rest from
+/// further in.
 fn far() -> impl Strategy<Value = (usize, i64, i64, i64, bool, bool)> {
     (
         3_usize..=5,
@@ -419,15 +423,16 @@ fn tied(tie: &Tie) -> File {
         let (f1, d1) = (&one - &two * &f2 - &f3, &one - &d2 - &two * &e1);
         return file(6, &[f1, f2, f3, d1, d2, e1, e2, q(3, 8), q(0, 1)]);
     }
-    // block 0 on E - V and F - V is [[d2 + 2 e1 - alpha, 2 e2 - beta], [2 f2 - alpha, f3 - beta]], made [[lambda^2, 0], [2 lean, lambda^2]]
+    // block 0 on E - V and F - V is [[d2 + 2 e1 - alpha, 2 e2 - beta], [2 f2 - alpha, f3 - beta]], made
+    // [[lambda^2, 0], [2 lean, lambda^2]]
     let cosine = match tie.n {
         3 => q(-1, 2),
         4 => Q::zero(),
         _ => half.clone(),
     };
     let (e1, e2, f3) = (q(tie.e1, 32), &beta * &half, &square + &beta);
-    // (d2 + 2 e1 c - lambda) (f3 - lambda) = 2 (1 + c) e2 f2 in block 1, with f2 = alpha/2 + lean and alpha = d2 + 2 e1 - lambda^2;
-    // f3 < lambda as lambda (1 - lambda) >= 15/64 and beta <= 1/32
+    // (d2 + 2 e1 c - lambda) (f3 - lambda) = 2 (1 + c) e2 f2 in block 1, with f2 = alpha/2 + lean and alpha =
+    // d2 + 2 e1 - lambda^2; f3 < lambda as lambda (1 - lambda) >= 15/64 and beta <= 1/32
     let slope = &two * (&one + &cosine) * &e2 / (&f3 - &lambda);
     let constant = &lambda - &two * &e1 * &cosine + &slope * ((&two * &e1 - &square) * &half + &lean);
     let d2 = constant / (&one - &slope * &half);
@@ -587,7 +592,8 @@ fn any_stencil_file((n, stencils, centre): &(usize, Vec<(usize, [i64; 5])>, i64)
         if pass.special.iter().any(|special| special.at == at) {
             continue;
         }
-        // mirror-symmetric about the spoke or the diagonal where the point is; (4, 2) has no such axis and leans
+        // mirror-symmetric about the spoke or the diagonal where the point is; (4, 2) has no such axis and
+        // leans
         let mut special = Special::new(at, None);
         let mirror = if at.1 == 0 { -1 } else { 1 };
         let s = |p: i64| q(p, 16);

@@ -180,7 +180,8 @@ pub fn one_ring(n: usize, [f1, f2, f3, d1, d2, e1, e2, alpha, beta]: &[Q; 9]) ->
     pass
 }
 
-/// Midpoints and then smoothings (1, 2, 1)/4, the last of them disturbed by some fortieths: degree `1 + 2 count` if by none.
+/// Midpoints and then smoothings (1, 2, 1)/4, the last of them disturbed by some fortieths: degree `1 + 2
+/// count` if by none.
 pub fn smoothings(n: usize, count: usize, by: i64) -> Vec<Pass> {
     let valence = n as i64;
     let mut passes = vec![Pass::vertex(vec![
@@ -191,7 +192,8 @@ pub fn smoothings(n: usize, count: usize, by: i64) -> Vec<Pass> {
         let side = q(1, 4) + if index + 1 == count { q(by, 40) } else { Q::zero() };
         let middle = Q::one() - &side - &side;
         let mut pass = Pass::vertex(vec![vec![(-2, side.clone()), (0, middle), (2, side)]]);
-        // the mean over the faces of the mean of their corners, twice around: (n - 3)/n, 2/n^2 and 1/n^2 (Fang, Ma and Wang)
+        // the mean over the faces of the mean of their corners, twice around: (n - 3)/n, 2/n^2 and 1/n^2
+        // (Fang, Ma and Wang)
         pass.special = centre(n, &q(2, valence), &q(1, valence));
         passes.push(pass);
     }
@@ -205,8 +207,8 @@ pub fn shift_and_back(n: usize, by: i64) -> [Pass; 2] {
     [there, back]
 }
 
-/// Corner cutting, and then pairs of centroids from the face net to the vertex net and back: degree `2 + 2 pairs`. The last way back leans by
-/// some fortieths.
+/// Corner cutting, and then pairs of centroids from the face net to the vertex net and back: degree `2 + 2
+/// pairs`. The last way back leans by some fortieths.
 pub fn repeated_averaging(n: usize, pairs: usize, by: i64) -> Vec<Pass> {
     let half = || vec![vec![(-1, q(1, 2)), (1, q(1, 2))]];
     let centroid = || {
