@@ -5,12 +5,15 @@
 //! [`Net`]. Families are constructors in [`families`] and [`lambda`]; user schemes come from TOML through [`user`];
 //! [`Spec`] finds a scheme by name. All of it is generic over the [`Scalar`].
 
+mod corner;
 pub mod curve;
+mod definition;
 mod dual;
 mod error;
 mod exact;
 pub mod families;
 mod fourier;
+mod knots;
 pub mod lambda;
 mod level;
 mod line;
@@ -27,6 +30,8 @@ mod spline;
 mod stencil;
 pub mod user;
 
+pub use corner::{Centre, Corner, MAX_SECTORS, Spoke};
+pub use definition::Definition;
 pub use dual::Dual;
 pub use error::{Error, RuleFault};
 pub use exact::{Exact, Parts};
