@@ -27,6 +27,22 @@ pub enum Error {
         /// The lambda it was given for.
         lambda: f64,
     },
+    /// A table counts its terms in 32 bits.
+    #[error("a table of {terms} terms: accepted are up to {maximum}")]
+    TableSize {
+        /// How many there would be.
+        terms: usize,
+        /// How many can be counted.
+        maximum: usize,
+    },
+    /// A table reads a point that is not there.
+    #[error("a table reads point {index} of {count}: accepted are as many points as it was made for")]
+    TablePoint {
+        /// The point's index.
+        index: usize,
+        /// How many points there are.
+        count: usize,
+    },
     /// A fan has at least one sector.
     #[error("{sectors} sectors: accepted are 1 to {maximum}")]
     Sectors {

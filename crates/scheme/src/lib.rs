@@ -28,6 +28,7 @@ mod site;
 mod spec;
 mod spline;
 mod stencil;
+mod table;
 pub mod user;
 
 pub use corner::{Centre, Corner, MAX_SECTORS, Spoke};
@@ -50,6 +51,7 @@ pub use site::{Fan, Lattice, Numbering, Site};
 pub use spec::{Family, Spec, registry};
 pub use spline::{Basis, Knots, Spline};
 pub use stencil::Stencil;
+pub use table::{Table, Topology};
 
 /// The README's program is compiled and run as a test.
 #[cfg(doctest)]
