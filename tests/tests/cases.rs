@@ -467,3 +467,33 @@ fn every_case_is_in_the_table() {
         assert!(table.contains(&format!("\"{name}\"")), "{name}");
     }
 }
+
+/// Lines that are no mirror images of themselves, and whose product is a B-spline's mask on a plain line: outwards on both
+/// sides of a spoke they are another rule.
+#[test]
+fn lines_that_lean_and_lean_back_are_no_spline() {
+    for (file, n) in [
+        ("lean-and-back-n4.toml", 4),
+        ("lean-and-back-n5.toml", 5),
+        ("shift-and-back-n4.toml", 4),
+        ("shift-and-back-n5.toml", 5),
+    ] {
+        let checks = claimed(file, n);
+        for check in &checks {
+            let of_rows = [Statement::RowSums, Statement::Hull].contains(&check.name);
+            assert!(
+                of_rows || check.status == Status::Undecided,
+                "{file}: {} is {}",
+                check.name,
+                check.status
+            );
+        }
+    }
+}
+
+/// Stencils listed sector by sector, rounded one by one, are those of one rule.
+#[test]
+fn rounded_stencils_of_all_sectors_are_balanced_against_each_other() {
+    let checks = claimed("sector-by-sector-rounded-n5.toml", 5);
+    assert_eq!(c1(&checks), Status::Proven);
+}

@@ -132,10 +132,12 @@ fn patches(subject: &Subject) -> Result<Patches, Error> {
         let weights: Vec<String> = mask.values().map(|weight| format!("{}", weight.mid())).collect();
         format!(" ({})", weights.join(", "))
     });
-    let reason = format!(
-        "the lines of all passes together{} are no uniform B-spline's mask, so that the regular surface is not known",
-        mask.unwrap_or_default()
-    );
+    let reason = match mask {
+        Some(mask) => format!(
+            "the lines of all passes together{mask} are no uniform B-spline's mask, so that the regular surface is not known"
+        ),
+        None => "rules change across a spoke or from sector to sector also far from the centre".to_owned(),
+    };
     let (row_sums, hull) = (rows::row_sums(subject)?, rows::hull(subject)?);
     Ok(Err(without_patches(subject, row_sums, hull, &reason)))
 }
@@ -231,9 +233,8 @@ impl<'a> Proof<'a> {
             checks.push(Check::undecided(name, reason));
         }
         let vector = |entry: Subdominant| spectrum.points(&spectrum.entries[entry.position]);
-        let net = pair.and_then(|[larger, smaller]| {
-            PlaneNet::whole(spectrum.annulus, [vector(larger)?, vector(smaller)?]).ok()
-        });
+        let net = pair
+            .and_then(|[larger, smaller]| PlaneNet::whole(spectrum.annulus, [vector(larger)?, vector(smaller)?]).ok());
         Proof {
             subject,
             checks,
@@ -251,8 +252,33 @@ impl<'a> Proof<'a> {
         if self.subject.floating {
             self.checks = self.checks.into_iter().map(Check::of_rounded_numbers).collect();
         }
+        self.of_the_limit_level();
         self.checks.sort_by_key(|check| check.name);
         self.checks
+    }
+
+    /// Where levels differ, what refutes a statement about the limit level refutes one about the surface only if some net shows it after
+    /// the leading levels: the tangents do if `levels` is proven, and of other modes nothing is known.
+    fn of_the_limit_level(&mut self) {
+        if self.subject.scheme.leading().is_empty() {
+            return;
+        }
+        let shown = self
+            .checks
+            .iter()
+            .any(|check| check.name == Statement::Levels && check.status == Status::Proven);
+        for check in &mut self.checks {
+            let of_limit = match check.name {
+                Statement::Regular | Statement::Injective => !shown,
+                Statement::Dominant | Statement::Subdominant | Statement::BoundedCurvature => true,
+                _ => false,
+            };
+            if of_limit && check.status == Status::Refuted {
+                let text = check.witness.as_ref().map_or("", |witness| witness.text.as_str());
+                let reason = format!("of the limit level: {text}; the leading levels may leave no net that shows it");
+                *check = Check::undecided(check.name, reason);
+            }
+        }
     }
 
     fn map_checks(&self, evidence: &Evidence) -> Vec<Check> {

@@ -226,10 +226,17 @@ pub fn distinct_pair(spectrum: &Spectrum) -> (Check, Option<[Subdominant; 2]>) {
     let others = spectrum.largest_other(&[first, second]);
     let (other, _) = others.unwrap_or((Interval::point(0.0), 0));
     if !other.certainly_lt(smaller) {
-        return open(format!("an eigenvalue has a modulus up to {}, the second one is {smaller}", other.hi()));
+        return open(format!(
+            "an eigenvalue has a modulus up to {}, the second one is {smaller}",
+            other.hi()
+        ));
     }
     let margin = (Interval::point(1.0) - other / smaller).lo();
-    let remark = format!("rules differ from sector to sector: a pair of different eigenvalues, {} and {}", larger.mid(), smaller.mid());
+    let remark = format!(
+        "rules differ from sector to sector: a pair of different eigenvalues, {} and {}",
+        larger.mid(),
+        smaller.mid()
+    );
     let check = Check::proven(NAME).margin(margin).enclosing(larger).remark(remark);
     (check, Some(pair))
 }

@@ -108,6 +108,24 @@ impl<W: Same> Line<W> {
                 .all(|(a, b)| a.0 == b.0 && taps(a.1, b.1))
     }
 
+    /// Whether the uniform rule for targets of the given parity is its own mirror image. Coordinates count outwards on both sides of
+    /// a spoke, so that a rule which is not is another one on the other side, and no uniform rule across it.
+    pub fn is_mirror_image(&self, to: Lattice) -> bool {
+        let scale = self.scale();
+        let taps = |x: i32| -> BTreeMap<i32, W> {
+            let class = x.div_euclid(2).rem_euclid(scale) as usize;
+            let taps = self.classes[class].iter();
+            taps.map(|(offset, weight)| ((x + offset).div_euclid(scale), weight.clone()))
+                .collect()
+        };
+        (0..scale).all(|class| {
+            let x = 2 * class + to.parity();
+            let (own, image) = (taps(x), taps(-x));
+            let same = |(source, weight): (&i32, &W)| image.get(&-source).is_some_and(|other| weight.same(other));
+            own.len() == image.len() && own.iter().all(same)
+        })
+    }
+
     /// Whether a point on the spoke is made alike from both sides of it.
     pub fn is_symmetric_on_spoke(&self) -> bool {
         let taps: BTreeMap<i32, W> = self.taps(0).collect();

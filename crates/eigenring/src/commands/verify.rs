@@ -146,8 +146,10 @@ impl Arguments {
         )?;
         if let Some(balanced) = certificate.balanced {
             note(&format!(
-                "rounded weights were balanced: {} stencils, the largest change is {:e}; --exact takes them as written",
-                balanced.rows, balanced.largest
+                "rounded weights were balanced in {} stencil{}, the largest change is {:e}; --exact takes them as written",
+                balanced.rows,
+                if balanced.rows == 1 { "" } else { "s" },
+                balanced.largest
             ));
         }
         let (_, status) = requirement.verdict(&certificate.checks);

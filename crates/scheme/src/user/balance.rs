@@ -17,8 +17,8 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::collections::BTreeMap;
 
-/// Weights and sums closer than this are meant to be equal: below 1 a weight with twelve decimals is off by less, and no rule is
-/// known whose weights differ by so little on purpose.
+/// Weights and sums closer than this are meant to be equal: weights below 1 that were printed with 13 or more decimals are off by
+/// less than a tenth of it, and no rule is known whose weights differ by so little on purpose.
 const TOLERANCE: f64 = 1e-12;
 
 /// What balancing has changed.
@@ -48,6 +48,9 @@ pub(super) fn balance(fan: Fan, passes: &mut [PassRules]) -> Balance {
         let mut balanced = written.clone();
         if let Some(centre) = balanced.get_mut(&Site::CENTRE) {
             alike_in_all_sectors(fan, centre);
+        }
+        if !repeated {
+            between_sectors(fan, &mut balanced);
         }
         mirror_images(fan, repeated, &mut balanced);
         for (site, terms) in &mut balanced {
@@ -85,21 +88,13 @@ fn is_rounding(difference: &BigRational) -> bool {
 
 /// Replaces the weights of the given sites by their mean where they are all there, and close.
 fn level_out(terms: &mut Terms, sites: &[Site]) {
-    let Some(weights) = sites
-        .iter()
-        .map(|site| terms.get(site).cloned())
+    let weights = sites.iter().map(|site| terms.get(site).cloned());
+    let Some(mean) = weights
         .collect::<Option<Vec<_>>>()
+        .and_then(|weights| mean_of(&weights))
     else {
         return;
     };
-    let (least, most) = (weights.iter().min(), weights.iter().max());
-    let (Some(least), Some(most)) = (least, most) else {
-        return;
-    };
-    if least == most || !is_rounding(&(most - least)) {
-        return;
-    }
-    let mean = weights.iter().sum::<BigRational>() / BigRational::from_integer(weights.len().into());
     for site in sites {
         terms.insert(*site, mean.clone());
     }
@@ -118,6 +113,42 @@ fn alike_in_all_sectors(fan: Fan, centre: &mut Terms) {
             .collect();
         level_out(centre, &orbit);
     }
+}
+
+/// Stencils of the same point of every sector, where each is listed: weights at the same place are those of each sector.
+fn between_sectors(fan: Fan, stencils: &mut BTreeMap<Site, Terms>) {
+    let n = fan.sectors() as i64;
+    let first: Vec<Site> = stencils
+        .keys()
+        .copied()
+        .filter(|site| site.sector == 0 && *site != Site::CENTRE)
+        .collect();
+    for site in first {
+        for source in stencils[&site].keys().copied().collect::<Vec<_>>() {
+            let places: Vec<(Site, Site)> = (0..n)
+                .map(|by| (site.rotated(fan, by), source.rotated(fan, by)))
+                .collect();
+            let weight = |&(site, source): &(Site, Site)| stencils.get(&site)?.get(&source).cloned();
+            let Some(weights) = places.iter().map(weight).collect::<Option<Vec<_>>>() else {
+                continue;
+            };
+            let Some(mean) = mean_of(&weights) else { continue };
+            for (site, source) in places {
+                if let Some(terms) = stencils.get_mut(&site) {
+                    terms.insert(source, mean.clone());
+                }
+            }
+        }
+    }
+}
+
+/// The mean of weights that are close but not equal.
+fn mean_of(weights: &[BigRational]) -> Option<BigRational> {
+    let (least, most) = (weights.iter().min()?, weights.iter().max()?);
+    if least == most || !is_rounding(&(most - least)) {
+        return None;
+    }
+    Some(weights.iter().sum::<BigRational>() / BigRational::from_integer(weights.len().into()))
 }
 
 /// Weights that a reflection exchanges, of one stencil or of two that are each other's image.
