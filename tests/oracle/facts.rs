@@ -219,6 +219,10 @@ impl Facts {
             .collect();
         let why = format!("largest eigenvalues (Fourier index): {}", text.join(", "));
         let in_index = |k: usize| wide.iter().all(|other| other.fourier == Some(k));
+        if self.distinct_pair().is_some() {
+            self.say("subdominant", size > APART && self.affine(), false, why);
+            return;
+        }
         let holds = wide.len() == 2 && wide.iter().all(positive) && in_index(1) && self.local.mirror;
         let fails = near.iter().any(other_sort)
             || near.len() >= 3
@@ -227,8 +231,36 @@ impl Facts {
         self.say("subdominant", holds && size > APART && self.affine(), fails, why);
     }
 
+    /// Two real positive values, apart from each other and from the rest, of rules that differ from sector to
+    /// sector.
+    fn distinct_pair(&self) -> Option<[f64; 2]> {
+        let [first, second, rest @ ..] = self.others.as_slice() else {
+            return None;
+        };
+        let real = |other: &Other| other.value.re > 0.0 && other.value.im == 0.0;
+        let apart = |larger: f64, smaller: f64| smaller < larger * (1.0 - APART);
+        let (a, b) = (first.value.re, second.value.re);
+        let third = rest.first().map_or(0.0, |other| other.value.norm());
+        let found = !self.local.rotation && real(first) && real(second) && apart(a, b) && apart(b, third);
+        found.then_some([a, b])
+    }
+
     /// The plane map of the leading pair: real and imaginary part of its eigenvector, or two real ones.
     fn subdominant_map(&self, blocks: &[Block]) -> Option<Vec<[f64; 2]>> {
+        if let Some(pair) = self.distinct_pair() {
+            let block = blocks.iter().find(|block| block.fourier.is_none())?;
+            let vector = |value: f64| {
+                let (sizes, vectors) = block.singular(c64::new(value, 0.0))?;
+                let last = sizes.len() - 1;
+                let rows = 0..self.local.points.len();
+                // turned so that its largest entry is real
+                let raw: Vec<c64> = rows.map(|i| vectors[(i, last)]).collect();
+                let largest = raw.iter().copied().max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
+                Some(raw.iter().map(|entry| (entry / largest).re).collect::<Vec<f64>>())
+            };
+            let (x, y) = (vector(pair[0])?, vector(pair[1])?);
+            return Some(x.into_iter().zip(y).map(|(x, y)| [x, y]).collect());
+        }
         let wide = self.leading(APART);
         if wide.len() != 2 || self.radius() < APART {
             return None;

@@ -658,3 +658,57 @@ fn a_hidden_second_order_eigenvalue_is_not_passed_over() {
     // small components need no evidence; the others do
     assert!(opened >= 3, "{opened}");
 }
+
+/// Catmull-Clark's stencils listed for every sector, of which edge point 0 keeps a little more of its own.
+fn uneven_catmull_clark(n: usize, more: i64) -> Input {
+    let mut text = format!(
+        "kind = \"stencils\"\nname = \"uneven\"\n[[valence]]\nn = {n}\n[[valence.pass]]\nfrom = \"vertex\"\nto = \"vertex\"\n\
+         line = [[[-4, \"1/8\"], [0, \"3/4\"], [4, \"1/8\"]], [[-2, \"1/2\"], [2, \"1/2\"]]]\n"
+    );
+    let own = 4 * n * n - 7 * n;
+    text += &format!(
+        "[[valence.pass.special]]\nat = [0, 0]\nstencil = [{{ at = [0, 0], weight = \"{own}/{}\" }}, \
+         {{ at = [2, 0], sector = \"all\", weight = \"3/{}\" }}, {{ at = [2, 2], sector = \"all\", weight = \"1/{}\" }}]\n",
+        4 * n * n,
+        2 * n * n,
+        4 * n * n
+    );
+    for sector in 0..n {
+        let (before, after) = ((sector + n - 1) % n, (sector + 1) % n);
+        let change = if sector == 0 { more } else { 0 };
+        text += &format!(
+            "[[valence.pass.special]]\nat = [2, 0]\nsector = {sector}\nstencil = [\
+             {{ at = [0, 0], weight = \"{}/80000\" }}, {{ at = [2, 0], sector = {sector}, weight = \"{}/80000\" }}, \
+             {{ at = [2, 0], sector = {before}, weight = \"1/16\" }}, {{ at = [2, 0], sector = {after}, weight = \"1/16\" }}, \
+             {{ at = [2, 2], sector = {before}, weight = \"1/16\" }}, {{ at = [2, 2], sector = {sector}, weight = \"1/16\" }}]\n",
+            30000 - change,
+            30000 + change
+        );
+    }
+    Input::Toml {
+        text,
+        name: "uneven".into(),
+        reading: Reading::Balanced,
+    }
+}
+
+#[test]
+fn sectors_that_differ_are_proven_by_the_undivided_matrix() {
+    for n in [3, 5, 8, 32] {
+        let certificate = certify(uneven_catmull_clark(n, 400), n).unwrap();
+        let verdict = Requirement::C1.verdict(&certificate.checks);
+        assert_eq!(verdict, (true, Status::Proven), "{n}: {:?}", certificate.checks);
+        assert_eq!(status(&certificate, Statement::BoundedCurvature), Status::Undecided);
+        assert!(recheck(&certificate).unwrap().confirmed());
+        // evidence for fewer patches than there are proves nothing
+        let mut forged = certificate.clone();
+        if let Some(eigenring_certify::map::JacobianEvidence::Sign { patches, .. }) = &mut forged.evidence.jacobian {
+            patches.truncate(12);
+        }
+        assert!(!recheck(&forged).unwrap().confirmed());
+    }
+    // without the change all sectors are alike, and it is Catmull-Clark
+    let certificate = certify(uneven_catmull_clark(5, 0), 5).unwrap();
+    assert_eq!(Requirement::C1.verdict(&certificate.checks), (true, Status::Proven));
+    assert_eq!(status(&certificate, Statement::BoundedCurvature), Status::Refuted);
+}
