@@ -5,8 +5,6 @@
 //! [`Net`]. Families are constructors in [`families`] and [`lambda`]; user schemes come from TOML through [`user`];
 //! [`Spec`] finds a scheme by name. All of it is generic over the [`Scalar`].
 
-pub mod curve;
-mod dual;
 mod error;
 mod exact;
 pub mod families;
@@ -19,31 +17,26 @@ mod number;
 mod one_ring;
 mod pass;
 mod reach;
-mod scalar;
 mod scheme;
 mod site;
 mod spec;
-mod spline;
 mod stencil;
 pub mod user;
 
-pub use dual::Dual;
+/// The number types that rules are generic over, and the splines that weights are tabulated by.
+pub use eigenring_spline::{BigRational, Dual, Knots, Same, Scalar, Spline};
 pub use error::{Error, RuleFault};
 pub use exact::{Exact, Parts};
 pub use fourier::{Complex, Form, FourierNet};
 pub use level::{Level, Symmetry};
 pub use line::{Line, Taps};
 pub use net::{DenseNet, Net, Plan, PointNet, refine};
-/// The rational numbers that [`Scalar::rational`] takes.
-pub use num_rational::BigRational;
 pub use number::Number;
 pub use one_ring::OneRing;
 pub use pass::Pass;
-pub use scalar::{Same, Scalar};
 pub use scheme::Scheme;
 pub use site::{Fan, Lattice, Numbering, Site};
 pub use spec::{Family, Spec, registry};
-pub use spline::{Basis, Knots, Spline};
 pub use stencil::Stencil;
 
 /// The README's program is compiled and run as a test.

@@ -8,8 +8,9 @@
 //! continuous (d >= 2) on a connected set, so it vanishes somewhere. Where it takes both signs the map is not injective
 //! either: the degree of an injective map of the plane is constant and 1 or -1.
 
-use super::{Place, PlaneNet, Polynomial, Subdivision};
+use super::{Place, PlaneNet, Subdivision};
 use crate::{Enclose, Interval, Status};
+use eigenring_spline::bernstein::Polynomial;
 use serde::{Deserialize, Serialize};
 
 /// A claim about the Jacobian.

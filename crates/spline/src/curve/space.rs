@@ -171,7 +171,7 @@ impl Curve {
     /// The curve of `count` control points whose coordinates are given functions of the parameter, exactly.
     ///
     /// ```
-    /// use eigenring_scheme::curve::{Curve, Ends, Function};
+    /// use eigenring_spline::curve::{Curve, Ends, Function};
     /// // the unit circle from a hexagon
     /// let cosine = Function { cosine: 1.0, ..Function::default() };
     /// let sine = Function { sine: 1.0, ..Function::default() };
@@ -179,7 +179,7 @@ impl Curve {
     /// let circle = Curve::reproduce(4, u0, Ends::Closed, 6, &[cosine, sine])?;
     /// let point = circle.limit(0.123)?;
     /// assert!((point[0].hypot(point[1]) - 1.0).abs() < 1e-14);
-    /// # Ok::<(), eigenring_scheme::Error>(())
+    /// # Ok::<(), eigenring_spline::Error>(())
     /// ```
     ///
     /// # Errors

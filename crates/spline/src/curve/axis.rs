@@ -1,9 +1,8 @@
 //! One parameter direction of a curve or grid.
 
-use super::rule::{Rows, lattice};
-use super::{Basis, Ends, Tension};
+use super::rule::{Rows, shift};
+use super::{Basis, Ends, MAX_ORDER, Tension};
 use crate::Error;
-use crate::families::MAX_ORDER;
 
 /// The most numbers that a polygon or grid may hold, 1 GiB: refinement beyond that is refused and not attempted.
 const MAX_NUMBERS: usize = 1 << 27;
@@ -93,8 +92,7 @@ impl Axis {
 
     /// The parameter of point i: the peak of its influence.
     pub fn parameter(&self, i: usize) -> f64 {
-        let shift = f64::from(lattice(self.order()).parity()) / 2.0;
-        (self.first as f64 + i as f64 + shift) * self.step()
+        (self.first as f64 + i as f64 + shift(self.order())) * self.step()
     }
 
     /// The number of intervals between knots on which there is a curve.

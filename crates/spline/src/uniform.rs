@@ -5,39 +5,40 @@
 //! with j = 0 for the basis function that ends first; derivatives are differences of lower degree. The Bernstein coefficient
 //! `b_i` is the blossom at `0^(d-i) 1^i` (Ramshaw 1989), an affine combination with rational weights.
 
-use eigenring_scheme::Scalar;
+use crate::Scalar;
 
 /// The values, first and second derivatives of the d+1 basis functions at `t` in `[0, 1]`: `[values, first, second]`, each
 /// in the order of the control values.
 pub fn basis<S: Scalar + Copy>(degree: usize, t: S) -> [Vec<S>; 3] {
-    let values = values(degree, t);
     let first = match degree {
         0 => vec![S::zero(); 1],
-        _ => differences(&self::values(degree - 1, t)),
+        _ => differences(&values(degree - 1, t)),
     };
     let second = match degree {
         0 | 1 => vec![S::zero(); degree + 1],
-        _ => differences(&differences(&self::values(degree - 2, t))),
+        _ => differences(&differences(&values(degree - 2, t))),
     };
-    [values, first, second]
+    [values(degree, t), first, second]
 }
 
-fn values<S: Scalar + Copy>(degree: usize, t: S) -> Vec<S> {
-    let mut values = vec![S::one()];
+/// The values of the d+1 basis functions at `t`, without derivatives.
+pub fn values<S: Scalar + Copy>(degree: usize, t: S) -> Vec<S> {
+    let whole = |i: usize| S::ratio(i as i64, 1);
+    let mut values = Vec::with_capacity(degree + 1);
+    values.push(S::one());
     for d in 1..=degree {
-        let whole = |i: usize| S::ratio(i as i64, 1);
-        values = (0..=d)
-            .map(|j| {
-                let mut sum = S::zero();
-                if j > 0 {
-                    sum += (t + whole(d - j)) * values[j - 1];
-                }
-                if j < d {
-                    sum += (whole(j + 1) - t) * values[j];
-                }
-                sum / whole(d)
-            })
-            .collect();
+        values.push(S::zero());
+        // from the last function to the first, so that those of the lower degree are still there
+        for j in (0..=d).rev() {
+            let mut sum = S::zero();
+            if j > 0 {
+                sum += (t + whole(d - j)) * values[j - 1];
+            }
+            if j < d {
+                sum += (whole(j + 1) - t) * values[j];
+            }
+            values[j] = sum / whole(d);
+        }
     }
     values
 }
@@ -87,7 +88,7 @@ fn blossom<S: Scalar + Copy>(mut values: Vec<S>, zeros: usize) -> S {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use eigenring_scheme::Dual;
+    use crate::Dual;
 
     #[test]
     fn bases_are_partitions_of_unity_with_exact_derivatives() {

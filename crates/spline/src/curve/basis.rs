@@ -17,6 +17,8 @@
 //! All terms have one sign for `u >= 0`; nothing cancels for any u near 1, where closed forms by powers and sines would.
 
 use super::{Angle, Tension};
+use crate::quadrature::{Node, gauss_legendre};
+use crate::uniform;
 
 /// The longest piece of quadrature, in units of `1/w`.
 const ARC: f64 = std::f64::consts::TAU;
@@ -29,8 +31,8 @@ const REACH: f64 = 48.0;
 pub struct Basis {
     order: usize,
     tension: Tension,
-    /// Gauss-Legendre nodes and weights on [0, 1].
-    rule: Vec<(f64, f64)>,
+    /// Quadrature on [0, 1].
+    rule: Vec<Node>,
 }
 
 impl Basis {
@@ -73,7 +75,7 @@ impl Basis {
             let interval = (f - y).floor().clamp(-1.0, 1.0);
             let offset = (interval + 1.0) as usize;
             let fraction = f - y - interval;
-            for (sum, value) in values[offset..].iter_mut().zip(polynomial(self.order - 2, fraction)) {
+            for (sum, value) in values[offset..].iter_mut().zip(uniform::values(self.order - 3, fraction)) {
                 *sum += weight * value;
             }
         }
@@ -121,8 +123,8 @@ impl Basis {
                 let parts = (w * (to - from) / ARC).ceil().max(1.0);
                 let length = (to - from) / parts;
                 for part in 0..parts as usize {
-                    for &(x, weight) in &self.rule {
-                        let a = from + (part as f64 + x) * length;
+                    for &Node { at, weight } in &self.rule {
+                        let a = from + (part as f64 + at) * length;
                         nodes.push((side * a, weight * length * self.hat(a)));
                     }
                 }
@@ -147,45 +149,6 @@ impl Basis {
     }
 }
 
-/// The uniform polynomial B-splines of `order` that do not vanish on an interval, at a fraction of it (Cox 1972, de Boor
-/// 1972); the one that ends there comes first.
-fn polynomial(order: usize, fraction: f64) -> Vec<f64> {
-    let mut values = vec![1.0];
-    for degree in 1..order {
-        let inverse = 1.0 / degree as f64;
-        values.push(0.0);
-        for j in (0..=degree).rev() {
-            // the distances to both ends of the support
-            let rising = (fraction + (degree - j) as f64) * inverse;
-            let before = if j > 0 { values[j - 1] } else { 0.0 };
-            let falling = (1.0 - fraction + j as f64) * inverse;
-            values[j] = rising * before + falling * values[j];
-        }
-    }
-    values
-}
-
-/// Nodes and weights on [0, 1], by Newton's method on the Legendre polynomial from Tricomi's estimate.
-fn gauss_legendre(count: usize) -> Vec<(f64, f64)> {
-    let n = count as f64;
-    let nodes = (0..count).map(|i| {
-        let mut x = (std::f64::consts::PI * (i as f64 + 0.75) / (n + 0.5)).cos();
-        let mut slope = 1.0;
-        // quadratic convergence from an error of n^-4: four steps are enough, one more costs nothing
-        for _ in 0..6 {
-            let (mut previous, mut value) = (1.0, x);
-            for degree in 2..=count {
-                let d = degree as f64;
-                (previous, value) = (value, ((2.0 * d - 1.0) * x * value - (d - 1.0) * previous) / d);
-            }
-            slope = n * (previous - x * value) / (1.0 - x * x);
-            x -= value / slope;
-        }
-        ((1.0 - x) / 2.0, 1.0 / ((1.0 - x * x) * slope * slope))
-    });
-    nodes.collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -205,20 +168,6 @@ mod tests {
         1e6,
         1e300,
     ];
-
-    #[test]
-    fn quadrature_is_exact_for_its_degree() {
-        for count in [3, 13, 27] {
-            let rule = gauss_legendre(count);
-            for degree in 0..2 * count {
-                let sum: f64 = rule.iter().map(|(x, w)| w * x.powi(degree as i32)).sum();
-                assert!(
-                    (sum * (degree + 1) as f64 - 1.0).abs() < 1e-13,
-                    "{count} nodes, degree {degree}"
-                );
-            }
-        }
-    }
 
     #[test]
     fn functions_sum_to_one_and_are_positive() {

@@ -35,8 +35,12 @@ pub use axis::{Axis, Weights};
 pub use basis::Basis;
 pub use grid::Grid;
 pub use polygon::Curve;
+pub use rule::{Rule, rules};
 pub use space::{Function, Space};
 pub use tension::{Angle, Tension};
+
+/// The largest order: a refined point is a combination of about k/2 others, and nothing beyond degree 31 is of use.
+pub const MAX_ORDER: usize = 32;
 
 /// How a polygon ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
