@@ -23,8 +23,8 @@ mod spec;
 mod stencil;
 pub mod user;
 
-/// The number types that rules are generic over, and the splines that weights are tabulated by.
-pub use eigenring_spline::{BigRational, Dual, Knots, Same, Scalar, Spline};
+/// The number types that rules are generic over.
+pub use eigenring_spline::{BigRational, Dual, Same, Scalar};
 pub use error::{Error, RuleFault};
 pub use exact::{Exact, Parts};
 pub use fourier::{Complex, Form, FourierNet};

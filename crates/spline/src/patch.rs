@@ -64,7 +64,10 @@ mod tests {
             control: (0..16).map(|i| f64::from(i * i % 7)).collect(),
         };
         let corners = patch.bernstein().corners();
-        for (corner, (u, v)) in corners.into_iter().zip([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)]) {
+        for (corner, (u, v)) in corners
+            .into_iter()
+            .zip([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)])
+        {
             assert!((corner - patch.jet(u, v).value).abs() < 1e-14);
         }
     }

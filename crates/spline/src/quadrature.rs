@@ -64,7 +64,9 @@ fn legendre(count: usize, x: Pair) -> (Pair, Pair) {
     }
     let one = whole(1);
     let length = one.plus(x).times(one.minus(x));
-    let slope = whole(count).times(previous.minus(x.times(value))).times(length.reciprocal());
+    let slope = whole(count)
+        .times(previous.minus(x.times(value)))
+        .times(length.reciprocal());
     (value, slope)
 }
 
@@ -131,43 +133,55 @@ impl Pair {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Scalar;
-    use num_rational::BigRational;
+    use crate::{BigRational, Scalar};
+    use num_bigint::{BigInt, Sign};
 
     fn rational(value: f64) -> BigRational {
         BigRational::from_float(value).expect("finite")
     }
 
-    fn whole(value: usize) -> BigRational {
-        BigRational::from_integer(value.into())
+    fn power_of_two(exponent: u64) -> BigInt {
+        BigInt::from(1) << exponent
     }
 
-    /// `P_n(x)` and `P_n'(x)` without rounding.
+    /// `P_n(x)` and `P_n'(x)` without rounding, at an x in (-1, 1). With `x = a/d` the numbers `m! d^m P_m` are integers.
     fn exact(count: usize, x: &BigRational) -> (BigRational, BigRational) {
-        let (mut previous, mut value) = (whole(0), whole(1));
+        let (a, d) = (x.numer(), x.denom());
+        let square = d * d;
+        let (mut previous, mut value) = (BigInt::from(0), BigInt::from(1));
+        let mut scale = BigInt::from(1);
         for m in 0..count {
-            let next = (whole(2 * m + 1) * x * &value - whole(m) * previous) / whole(m + 1);
+            let next = (2 * m + 1) * a * &value - m * m * &square * previous;
             (previous, value) = (value, next);
+            scale = scale * (m + 1) * d;
         }
-        let slope = whole(count) * (x * &value - previous) / (x * x - whole(1));
-        (value, slope)
+        // n (x P_n - P_{n-1}) / (x^2 - 1), all of it times n! d^n and the denominators of x
+        let slope = count * (a * &value - count * &square * previous) * d;
+        let slope = BigRational::new(slope, (a * a - square) * &scale);
+        (BigRational::new(value, scale), slope)
     }
 
     /// The exact polynomial changes its sign within half a unit of the last place of each node, and the weight there, after a
     /// step of Newton's method in rational numbers, rounds to the double given.
     #[test]
     fn nodes_and_weights_are_the_doubles_next_to_the_exact_ones() {
+        let (one, two) = (BigRational::from_integer(1.into()), BigRational::from_integer(2.into()));
         for count in (1..=12).chain([15, 20, 27]) {
             for Node { at, weight } in gauss_legendre(count) {
-                let in_legendre = |t: BigRational| t * whole(2) - whole(1);
-                let middle = |other: f64| in_legendre((rational(at) + rational(other)) / whole(2));
-                let [below, above] = [at.next_down(), at.next_up()].map(|other| exact(count, &middle(other)).0);
-                assert!(below * above < whole(0), "{count} nodes: {at}");
-                let x = in_legendre(rational(at));
+                let at_middle = |other: f64| exact(count, &(rational(at) + rational(other) - &one)).0;
+                let (below, above) = (at_middle(at.next_down()), at_middle(at.next_up()));
+                let signs = (below.numer().sign(), above.numer().sign());
+                assert!(
+                    matches!(signs, (Sign::Minus, Sign::Plus) | (Sign::Plus, Sign::Minus)),
+                    "{count} nodes: {at}"
+                );
+                let x = rational(at) * &two - &one;
                 let (value, slope) = exact(count, &x);
-                let x = x - value / slope;
+                // the square of a rounding error is below 2^-100; more digits would only make the rest slow
+                let grid = power_of_two(120);
+                let x = BigRational::new(((x - value / slope) * &grid).round().to_integer(), grid);
                 let slope = exact(count, &x).1;
-                let expected = whole(1) / ((whole(1) - &x * &x) * &slope * &slope);
+                let expected = &one / ((&one - &x * &x) * &slope * &slope);
                 assert_eq!(weight, f64::rational(&expected), "{count} nodes: {at}");
             }
         }
@@ -181,7 +195,10 @@ mod tests {
             for degree in 0..2 * count {
                 let found = moment(degree) * (degree + 1) as f64;
                 // a power of degree d multiplies the rounding of a node by d, and powi rounds log d times more
-                assert!((found - 1.0).abs() < 1e-16 * (4 + degree) as f64, "{count} nodes, degree {degree}: {found}");
+                assert!(
+                    (found - 1.0).abs() < 1e-16 * (4 + degree) as f64,
+                    "{count} nodes, degree {degree}: {found}"
+                );
             }
             if count <= 8 {
                 let missed = 1.0 / (2.0 * count as f64 + 1.0) - moment(2 * count);
@@ -211,7 +228,10 @@ mod tests {
         let tables: [&[(f64, f64)]; 5] = [
             &[(0.577350269189626, 1.0)],
             &[(0.774596669241483, 0.555555555555556), (0.0, 0.888888888888889)],
-            &[(0.861136311594053, 0.347854845137454), (0.339981043584856, 0.652145154862546)],
+            &[
+                (0.861136311594053, 0.347854845137454),
+                (0.339981043584856, 0.652145154862546),
+            ],
             &[
                 (0.906179845938664, 0.236926885056189),
                 (0.538469310105683, 0.478628670499366),

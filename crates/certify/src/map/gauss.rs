@@ -31,8 +31,8 @@
 use super::regular::between;
 use super::{NetError, Place, PlaneNet, Subdivision, check_symmetry};
 use crate::{Enclose, Interval, Status};
-use eigenring_scheme::Scalar;
 use eigenring_spectral::PatchIndex;
+use eigenring_spline::Scalar;
 use eigenring_spline::bernstein::{Coefficient, Polynomial, Scaled};
 use eigenring_spline::uniform::to_bernstein;
 use serde::{Deserialize, Serialize};

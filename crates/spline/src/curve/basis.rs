@@ -75,7 +75,10 @@ impl Basis {
             let interval = (f - y).floor().clamp(-1.0, 1.0);
             let offset = (interval + 1.0) as usize;
             let fraction = f - y - interval;
-            for (sum, value) in values[offset..].iter_mut().zip(uniform::values(self.order - 3, fraction)) {
+            for (sum, value) in values[offset..]
+                .iter_mut()
+                .zip(uniform::values(self.order - 3, fraction))
+            {
                 *sum += weight * value;
             }
         }

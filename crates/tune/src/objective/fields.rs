@@ -21,10 +21,10 @@
 
 use super::complex::Complex;
 use super::lanes::{Lanes, WIDTH};
-use super::quadrature::gauss_legendre;
 use super::rings::{FirstRing, Rings, to_bisector};
-use eigenring_scheme::Scalar;
 use eigenring_scheme::lambda::Plane;
+use eigenring_spline::Scalar;
+use eigenring_spline::quadrature::gauss_legendre;
 
 /// Derivatives of a field with respect to the patch parameters: u, v, uu, uv, vv.
 pub(super) type Derivatives = [Lanes; 5];
