@@ -119,8 +119,14 @@ fn check_subject(subject: &Subject, evidence: &Evidence) -> Result<Vec<Check>, E
 type Patches = Result<(Annulus, Vec<Block>), Vec<Check>>;
 
 fn patches(subject: &Subject) -> Result<Patches, Error> {
-    if subject.scheme.degree().is_some() {
-        return Ok(Ok(spectral::problem(&subject.scheme)?));
+    match subject.scheme.degree() {
+        Some(2..) => return Ok(Ok(spectral::problem(&subject.scheme)?)),
+        Some(_) => {
+            let reason = "patches of degree 1 have kinks between them: the regular surface is not C1";
+            let (row_sums, hull) = (rows::row_sums(subject)?, rows::hull(subject)?);
+            return Ok(Err(without_patches(subject, row_sums, hull, reason)));
+        }
+        None => {}
     }
     let mask = subject.scheme.regular_mask().map(|mask| {
         let weights: Vec<String> = mask.values().map(|weight| format!("{}", weight.mid())).collect();
@@ -222,10 +228,9 @@ impl<'a> Proof<'a> {
 
     fn map_checks(&self, evidence: &Evidence) -> Vec<Check> {
         let Some(net) = &self.net else {
-            let reason = match (&self.lambda, self.subject.scheme.degree()) {
-                (None, _) => "no subdominant eigenvalue was proven",
-                (Some(_), Some(1)) => "patches of degree 1 have kinks between them: the regular surface is not C1",
-                (Some(_), _) => "the characteristic map could not be enclosed",
+            let reason = match &self.lambda {
+                None => "no subdominant eigenvalue was proven",
+                Some(_) => "the characteristic map could not be enclosed",
             };
             return [
                 Statement::Regular,
