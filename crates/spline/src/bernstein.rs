@@ -1,8 +1,10 @@
-//! Polynomials in Bernstein form: halves and values of one variable, and the algebra of two on the unit square.
+//! Polynomials in Bernstein form: halves and values of one variable, and the algebra of two on the unit
+//! square.
 //!
-//! `f(u, v) = sum_ij b_ij B_i^m(u) B_j^n(v)`. The Bernstein polynomials are non-negative and sum to one, so the values lie
-//! between the smallest and the largest coefficient, and the coefficients at the corners are values. On the halves of the
-//! square the bounds are sharper, with an error that falls quadratically with the size (Garloff 1986).
+//! `f(u, v) = sum_ij b_ij B_i^m(u) B_j^n(v)`. The Bernstein polynomials are non-negative and sum to one, so
+//! the values lie between the smallest and the largest coefficient, and the coefficients at the corners are
+//! values. On the halves of the square the bounds are sharper, with an error that falls quadratically with
+//! the size (Garloff 1986).
 //!
 //! Coefficients are stored with `i` (the degree in u) running fastest. With `b_ij` scaled by the binomials
 //! `C(m, i) C(n, j)` a product is a convolution (Farouki and Rajan 1988).
@@ -26,8 +28,8 @@ impl<S: Scalar + Copy> Polynomial<S> {
         }
     }
 
-    /// The polynomial of a tensor-product spline patch with `(d+1)^2` control values, from the conversion matrix of its
-    /// degree ([`to_bernstein`](crate::uniform::to_bernstein)).
+    /// The polynomial of a tensor-product spline patch with `(d+1)^2` control values, from the conversion
+    /// matrix of its degree ([`to_bernstein`](crate::uniform::to_bernstein)).
     pub fn from_control(control: &[S], conversion: &[Vec<S>]) -> Self {
         let width = conversion.len();
         let along_u: Vec<Vec<S>> = control
@@ -149,8 +151,8 @@ impl<S: Scalar + Copy> Polynomial<S> {
         }
     }
 
-    /// The four quarters of the square, each as a polynomial on the unit square: first half in u and v, second half in u,
-    /// second half in v, both second halves.
+    /// The four quarters of the square, each as a polynomial on the unit square: first half in u and v,
+    /// second half in u, second half in v, both second halves.
     pub fn quarters(&self) -> [Self; 4] {
         let [left, right] = self.halves_in_u();
         let ([a, c], [b, d]) = (left.halves_in_v(), right.halves_in_v());
@@ -216,7 +218,8 @@ pub struct Scaled<S> {
     coefficients: Vec<S>,
 }
 
-/// A scalar that can be the coefficient of a product. An implementation may have a faster way than [`convolution`] for it.
+/// A scalar that can be the coefficient of a product. An implementation may have a faster way than
+/// [`convolution`] for it.
 pub trait Coefficient: Scalar + Copy {
     /// The product of two polynomials with coefficients scaled by binomials.
     fn product(a: &Scaled<Self>, b: &Scaled<Self>) -> Scaled<Self> {
@@ -357,7 +360,8 @@ fn combine<S: Scalar + Copy>(weights: &[S], values: impl Iterator<Item = S>) -> 
     sum
 }
 
-/// The binomials of a row of Pascal's triangle, by sums: exact up to `2^53` in doubles, and enclosed beyond in intervals.
+/// The binomials of a row of Pascal's triangle, by sums: exact up to `2^53` in doubles, and enclosed beyond
+/// in intervals.
 pub fn binomials<S: Scalar + Copy>(n: usize) -> Vec<S> {
     let mut row = vec![S::one()];
     for _ in 0..n {
@@ -369,7 +373,8 @@ pub fn binomials<S: Scalar + Copy>(n: usize) -> Vec<S> {
     row
 }
 
-/// The two halves of a polynomial of one variable, each on the unit interval: the algorithm of de Casteljau at 1/2.
+/// The two halves of a polynomial of one variable, each on the unit interval: the algorithm of de Casteljau
+/// at 1/2.
 pub fn halves<S: Scalar + Copy>(coefficients: &[S]) -> [Vec<S>; 2] {
     let half = S::ratio(1, 2);
     let mut rest = coefficients.to_vec();
@@ -386,7 +391,8 @@ pub fn halves<S: Scalar + Copy>(coefficients: &[S]) -> [Vec<S>; 2] {
     [left, right]
 }
 
-/// The value at t of a polynomial of one variable, by the algorithm of de Casteljau; zero without coefficients.
+/// The value at t of a polynomial of one variable, by the algorithm of de Casteljau; zero without
+/// coefficients.
 pub fn value<S: Scalar + Copy>(mut coefficients: Vec<S>, t: S) -> S {
     let rest = S::one() - t;
     for count in (1..coefficients.len()).rev() {

@@ -1,7 +1,7 @@
 //! What can be wrong with a spline, a curve or a grid.
 
-/// Why knots, coefficients, control points or arguments are refused. Every variant carries the offending numbers; the message
-/// of a range error ends with the accepted range.
+/// Why knots, coefficients, control points or arguments are refused. Every variant carries the offending
+/// numbers; the message of a range error ends with the accepted range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {

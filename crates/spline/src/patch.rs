@@ -4,7 +4,8 @@ use crate::Scalar;
 use crate::bernstein::Polynomial;
 use crate::uniform::{basis, to_bernstein};
 
-/// A polynomial patch as a tensor-product uniform B-spline: `(d+1)^2` control values, the first parameter running fastest.
+/// A polynomial patch as a tensor-product uniform B-spline: `(d+1)^2` control values, the first parameter
+/// running fastest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TensorPatch<S> {
     /// The degree in each direction.

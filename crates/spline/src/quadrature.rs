@@ -1,12 +1,13 @@
 //! Gauss-Legendre quadrature on the unit interval.
 //!
-//! The nodes of the rule with n points are the zeros of the Legendre polynomial `P_n`, moved from `[-1, 1]` to `[0, 1]`. With `x`
-//! a zero, its weight there is `1 / ((1 - x^2) P_n'(x)^2)` (Abramowitz and Stegun 1964, 25.4.29). The rule is exact for
-//! polynomials of degree `2n - 1`.
+//! The nodes of the rule with n points are the zeros of the Legendre polynomial `P_n`, moved from `[-1, 1]`
+//! to `[0, 1]`. With `x` a zero, its weight there is `1 / ((1 - x^2) P_n'(x)^2)` (Abramowitz and Stegun 1964,
+//! 25.4.29). The rule is exact for polynomials of degree `2n - 1`.
 //!
-//! Both numbers are found to the last digit. In doubles the zeros come out to a few units of the last place, and the weights
-//! multiply that by `x / (1 - x^2)`, which near the ends grows with `n^2`: at n = 27 a hundred units were lost. So Newton's method
-//! in doubles is followed by one step in sums of two doubles, and the weight is taken at the zero as such a sum.
+//! Both numbers are found to the last digit. In doubles the zeros come out to a few units of the last place,
+//! and the weights multiply that by `x / (1 - x^2)`, which near the ends grows with `n^2`: at n = 27 a
+//! hundred units were lost. So Newton's method in doubles is followed by one step in sums of two doubles, and
+//! the weight is taken at the zero as such a sum.
 
 use std::f64::consts::PI;
 
@@ -19,7 +20,8 @@ pub struct Node {
     pub weight: f64,
 }
 
-/// The rule with `count` nodes in increasing order, exact for polynomials of degree `2 count - 1`; without nodes, an empty one.
+/// The rule with `count` nodes in increasing order, exact for polynomials of degree `2 count - 1`; without
+/// nodes, an empty one.
 ///
 /// Nodes and weights are the doubles next to the exact numbers, and the weights are symmetric.
 pub fn gauss_legendre(count: usize) -> Vec<Node> {
@@ -41,7 +43,8 @@ pub fn gauss_legendre(count: usize) -> Vec<Node> {
     rule
 }
 
-/// The zero of `P_n` that has `i` greater ones, by Newton's method from the asymptotic guess `cos(pi (i + 3/4) / (n + 1/2))`.
+/// The zero of `P_n` that has `i` greater ones, by Newton's method from the asymptotic guess
+/// `cos(pi (i + 3/4) / (n + 1/2))`.
 fn zero(count: usize, i: usize) -> Pair {
     let mut x = (PI * (i as f64 + 0.75) / (count as f64 + 0.5)).cos();
     // quadratic convergence from an error below 1e-2: four steps reach rounding, the fifth costs nothing
@@ -70,7 +73,8 @@ fn legendre(count: usize, x: Pair) -> (Pair, Pair) {
     (value, slope)
 }
 
-/// The sum of two doubles, of which `high` is the nearest to it: about 106 bits (Dekker 1971, *Numer. Math.* 18).
+/// The sum of two doubles, of which `high` is the nearest to it: about 106 bits (Dekker 1971, *Numer. Math.*
+/// 18).
 #[derive(Clone, Copy)]
 struct Pair {
     high: f64,
@@ -144,7 +148,8 @@ mod tests {
         BigInt::from(1) << exponent
     }
 
-    /// `P_n(x)` and `P_n'(x)` without rounding, at an x in (-1, 1). With `x = a/d` the numbers `m! d^m P_m` are integers.
+    /// `P_n(x)` and `P_n'(x)` without rounding, at an x in (-1, 1). With `x = a/d` the numbers `m! d^m P_m`
+    /// are integers.
     fn exact(count: usize, x: &BigRational) -> (BigRational, BigRational) {
         let (a, d) = (x.numer(), x.denom());
         let square = d * d;
@@ -161,8 +166,8 @@ mod tests {
         (BigRational::new(value, scale), slope)
     }
 
-    /// The exact polynomial changes its sign within half a unit of the last place of each node, and the weight there, after a
-    /// step of Newton's method in rational numbers, rounds to the double given.
+    /// The exact polynomial changes its sign within half a unit of the last place of each node, and the
+    /// weight there, after a step of Newton's method in rational numbers, rounds to the double given.
     #[test]
     fn nodes_and_weights_are_the_doubles_next_to_the_exact_ones() {
         let (one, two) = (BigRational::from_integer(1.into()), BigRational::from_integer(2.into()));
@@ -194,7 +199,8 @@ mod tests {
             let moment = |degree: usize| -> f64 { rule.iter().map(|n| n.weight * n.at.powi(degree as i32)).sum() };
             for degree in 0..2 * count {
                 let found = moment(degree) * (degree + 1) as f64;
-                // a power of degree d multiplies the rounding of a node by d, and powi rounds log d times more
+                // a power of degree d multiplies the rounding of a node by d, and powi rounds log d times
+                // more
                 assert!(
                     (found - 1.0).abs() < 1e-16 * (4 + degree) as f64,
                     "{count} nodes, degree {degree}: {found}"
@@ -221,8 +227,8 @@ mod tests {
         }
     }
 
-    /// Abramowitz and Stegun, *Handbook of Mathematical Functions*, 1964, Table 25.4: abscissas and weights on [-1, 1], 15
-    /// decimals.
+    /// Abramowitz and Stegun, *Handbook of Mathematical Functions*, 1964, Table 25.4: abscissas and weights
+    /// on [-1, 1], 15 decimals.
     #[test]
     fn published_values() {
         let tables: [&[(f64, f64)]; 5] = [

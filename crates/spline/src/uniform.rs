@@ -1,14 +1,15 @@
 //! Uniform B-splines on one knot interval, and their Bernstein form.
 //!
-//! On the interval `[0, 1]` between two knots a uniform spline of degree d is a combination of d+1 consecutive control
-//! values `c_0 .. c_d`. The basis follows from `N_0 = 1` by `d N_j^d(t) = (t + d - j) N_{j-1}^{d-1} + (j + 1 - t) N_j^{d-1}`
-//! with j = 0 for the basis function that ends first; derivatives are differences of lower degree. The Bernstein coefficient
-//! `b_i` is the blossom at `0^(d-i) 1^i` (Ramshaw 1989), an affine combination with rational weights.
+//! On the interval `[0, 1]` between two knots a uniform spline of degree d is a combination of d+1
+//! consecutive control values `c_0 .. c_d`. The basis follows from `N_0 = 1` by
+//! `d N_j^d(t) = (t + d - j) N_{j-1}^{d-1} + (j + 1 - t) N_j^{d-1}` with j = 0 for the basis function that
+//! ends first; derivatives are differences of lower degree. The Bernstein coefficient `b_i` is the blossom at
+//! `0^(d-i) 1^i` (Ramshaw 1989), an affine combination with rational weights.
 
 use crate::Scalar;
 
-/// The values, first and second derivatives of the d+1 basis functions at `t` in `[0, 1]`: `[values, first, second]`, each
-/// in the order of the control values.
+/// The values, first and second derivatives of the d+1 basis functions at `t` in `[0, 1]`:
+/// `[values, first, second]`, each in the order of the control values.
 pub fn basis<S: Scalar + Copy>(degree: usize, t: S) -> [Vec<S>; 3] {
     let first = match degree {
         0 => vec![S::zero(); 1],
@@ -69,8 +70,8 @@ pub fn to_bernstein<S: Scalar + Copy>(degree: usize) -> Vec<Vec<S>> {
         .collect()
 }
 
-/// The blossom of the spline segment at `zeros` zeros and ones for the rest, by de Boor's recursion. Knots are the integers
-/// `1-d .. d`.
+/// The blossom of the spline segment at `zeros` zeros and ones for the rest, by de Boor's recursion. Knots
+/// are the integers `1-d .. d`.
 fn blossom<S: Scalar + Copy>(mut values: Vec<S>, zeros: usize) -> S {
     let degree = values.len() - 1;
     for round in 1..=degree {

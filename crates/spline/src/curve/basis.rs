@@ -1,20 +1,22 @@
 //! The basis of the limit curves.
 //!
-//! One level multiplies the generating function of the points by `(1+z)^(k-2) (1 + 2 u z + z^2) / (2^(k-2) (1+u))`. Over all
-//! levels each factor `(1+z)/2` becomes the box function of width 1, and the last factor, since `u_l` halves its angle, the
-//! generalised hat of unit area
+//! One level multiplies the generating function of the points by
+//! `(1+z)^(k-2) (1 + 2 u z + z^2) / (2^(k-2) (1+u))`. Over all levels each factor `(1+z)/2` becomes the box
+//! function of width 1, and the last factor, since `u_l` halves its angle, the generalised hat of unit area
 //!
 //! ```text
 //! H(y) = w sin(w (1-|y|)) / (2 (1 - cos w)),   1 - |y|,   w sinh(w (1-|y|)) / (2 (cosh w - 1)),    |y| <= 1
 //! ```
 //!
-//! for `u = cos(w/2), 1, cosh(w/2)`. The limit of a single 1 is their convolution, `B_k = H * N_{k-2}`, where `N_{k-2}` is the
-//! uniform polynomial B-spline of k-2 intervals: **the basis of order k is the polynomial one of order k-2, averaged over H**.
-//! It is even, has support `[-k/2, k/2]` and k-2 continuous derivatives, and its shifts sum to one. For `u >= 0` it is positive.
+//! for `u = cos(w/2), 1, cosh(w/2)`. The limit of a single 1 is their convolution, `B_k = H * N_{k-2}`, where
+//! `N_{k-2}` is the uniform polynomial B-spline of k-2 intervals: **the basis of order k is the polynomial
+//! one of order k-2, averaged over H**. It is even, has support `[-k/2, k/2]` and k-2 continuous derivatives,
+//! and its shifts sum to one. For `u >= 0` it is positive.
 //!
-//! The average is taken by Gauss-Legendre quadrature between the knots. The integrand there is a polynomial of degree k-3 times
-//! an exponential function of a range of at most `2 pi` ([`ARC`]), so that the rule's error is below rounding ([`Basis::new`]).
-//! All terms have one sign for `u >= 0`; nothing cancels for any u near 1, where closed forms by powers and sines would.
+//! The average is taken by Gauss-Legendre quadrature between the knots. The integrand there is a polynomial
+//! of degree k-3 times an exponential function of a range of at most `2 pi` ([`ARC`]), so that the rule's
+//! error is below rounding ([`Basis::new`]). All terms have one sign for `u >= 0`; nothing cancels for any u
+//! near 1, where closed forms by powers and sines would.
 
 use super::{Angle, Tension};
 use crate::quadrature::{Node, gauss_legendre};
@@ -38,8 +40,8 @@ pub struct Basis {
 impl Basis {
     /// The basis of an order of at least 3.
     ///
-    /// The n nodes are exact to degree `2n-1 >= k-3+24`. On a piece of length `2 pi/w` the best approximation of degree 24 to
-    /// `exp(i w y)` or `exp(w y)` has an error of about `2 (pi/2)^25 / 25! = 1e-20`.
+    /// The n nodes are exact to degree `2n-1 >= k-3+24`. On a piece of length `2 pi/w` the best approximation
+    /// of degree 24 to `exp(i w y)` or `exp(w y)` has an error of about `2 (pi/2)^25 / 25! = 1e-20`.
     pub(super) fn new(order: usize, tension: Tension) -> Self {
         Basis {
             order,
@@ -66,12 +68,13 @@ impl Basis {
         self.tension
     }
 
-    /// The k functions that do not vanish between two knots, at the fraction `0 <= f <= 1` of the way: the weights of k
-    /// consecutive points in the limit point there.
+    /// The k functions that do not vanish between two knots, at the fraction `0 <= f <= 1` of the way: the
+    /// weights of k consecutive points in the limit point there.
     pub(super) fn values(&self, f: f64) -> Vec<f64> {
         let mut values = vec![0.0; self.order];
         for (y, weight) in self.average(f) {
-            // the place f - y lies in the interval before (its functions are the first k-2), in this one, or in the next
+            // the place f - y lies in the interval before (its functions are the first k-2), in this one, or
+            // in the next
             let interval = (f - y).floor().clamp(-1.0, 1.0);
             let offset = (interval + 1.0) as usize;
             let fraction = f - y - interval;
@@ -85,8 +88,8 @@ impl Basis {
         values
     }
 
-    /// The limit point at a control point's own parameter as an average of it and its neighbours: the values at a knot for
-    /// even orders, half way between two for odd ones. An odd number of weights, symmetric.
+    /// The limit point at a control point's own parameter as an average of it and its neighbours: the values
+    /// at a knot for even orders, half way between two for odd ones. An odd number of weights, symmetric.
     pub fn mask(&self) -> Vec<f64> {
         if self.order.is_multiple_of(2) {
             let mut mask = self.values(0.0);
