@@ -185,6 +185,9 @@ impl<'a> Proof<'a> {
             });
         }
         let spectrum = Spectrum::new(annulus, blocks, evidence);
+        if !subject.scheme.limit().is_rotation_symmetric() {
+            return Ok(Proof::of_different_sectors(subject, vec![row_sums, hull], &spectrum));
+        }
         let mut facts = Facts::new(subject);
         let dominant = conditions::dominant(&spectrum);
         let (subdominant, lambda) = conditions::subdominant(subject, &spectrum, &mut facts);
@@ -212,6 +215,32 @@ impl<'a> Proof<'a> {
             net,
             heights,
         })
+    }
+
+    /// The same for rules that differ from sector to sector: the statements about C1 alone.
+    fn of_different_sectors(subject: &'a Subject, mut checks: Vec<Check>, spectrum: &Spectrum) -> Self {
+        let (subdominant, pair) = conditions::distinct_pair(spectrum);
+        checks.extend([conditions::dominant(spectrum), subdominant]);
+        let least = pair.map(|[_, smaller]| smaller.value);
+        checks.extend(levels(subject, least));
+        let reason = match pair {
+            None => "no subdominant eigenvalues were proven",
+            Some(_) => "stated of a double subdominant eigenvalue, and there are two different ones",
+        };
+        for name in [Statement::BoundedCurvature, Statement::NonDegenerate, Statement::Strict] {
+            checks.push(Check::undecided(name, reason));
+        }
+        let vector = |entry: Subdominant| spectrum.points(&spectrum.entries[entry.position]);
+        let net = pair.and_then(|[larger, smaller]| {
+            PlaneNet::whole(spectrum.annulus, [vector(larger)?, vector(smaller)?]).ok()
+        });
+        Proof {
+            subject,
+            checks,
+            lambda: pair.map(|[larger, _]| larger),
+            net,
+            heights: Vec::new(),
+        }
     }
 
     fn finish(mut self, evidence: &Evidence) -> Vec<Check> {

@@ -5,10 +5,13 @@
 //! [`Net`]. Families are constructors in [`families`] and [`lambda`]; user schemes come from TOML through [`user`];
 //! [`Spec`] finds a scheme by name. All of it is generic over the [`Scalar`].
 
+mod corner;
+mod definition;
 mod error;
 mod exact;
 pub mod families;
 mod fourier;
+mod knots;
 pub mod lambda;
 mod level;
 mod line;
@@ -21,8 +24,11 @@ mod scheme;
 mod site;
 mod spec;
 mod stencil;
+mod table;
 pub mod user;
 
+pub use corner::{Centre, Corner, MAX_SECTORS, Spoke};
+pub use definition::Definition;
 /// The number types that rules are generic over.
 pub use eigenring_spline::{BigRational, Dual, Same, Scalar};
 pub use error::{Error, RuleFault};
@@ -38,6 +44,7 @@ pub use scheme::Scheme;
 pub use site::{Fan, Lattice, Numbering, Site};
 pub use spec::{Family, Spec, registry};
 pub use stencil::Stencil;
+pub use table::{Table, Topology};
 
 /// The README's program is compiled and run as a test.
 #[cfg(doctest)]
