@@ -2,9 +2,9 @@
 //! parameter. **Oracles**: Lane and Riesenfeld's algorithm and de Boor's for tension 1; the basis as differences of truncated
 //! functions with 220 digits (`data/generalised_basis.json`); the integral recurrence from order to order; 34 levels of refinement; the family's own rule around a vertex or face of valence 4.
 
-use eigenring_scheme::curve::{Axis, Curve, Ends, Grid};
-use eigenring_scheme::families::tension;
+use eigenring_scheme::families::{MAX_ORDER, tension};
 use eigenring_scheme::{Numbering, PointNet, Site, refine};
+use eigenring_spline::curve::{Axis, Curve, Ends, Grid, rules};
 use eigenring_tests::Comparison;
 use serde::Deserialize;
 use std::collections::HashMap;
@@ -315,4 +315,29 @@ fn every_level_has_the_same_limit() {
         }
     }
     comparison.finish();
+}
+
+/// Curves state their rules by the numbers of points, the family by places in half steps: they are the same.
+#[test]
+fn rules_are_the_regular_ones_of_the_family() {
+    for order in 3..=MAX_ORDER {
+        for u in [-0.5, 0.3, 1.0, 2.0] {
+            let scheme = tension::<f64>(4, order, u).unwrap();
+            let passes = scheme.level(0).passes();
+            let rules = rules(order, u);
+            assert_eq!(passes.len(), rules.len());
+            for (pass, rule) in passes.iter().zip(&rules) {
+                let line = pass.line().expect("one line for all spokes");
+                let scale = line.scale();
+                let expected: Vec<Vec<(i64, f64)>> = (0..scale)
+                    .map(|class| {
+                        let taps = line.taps(2 * class + pass.to().parity());
+                        let number = |source: i32| i64::from((source - pass.from().parity()) / 2);
+                        taps.map(|(source, weight)| (number(source), weight)).collect()
+                    })
+                    .collect();
+                assert_eq!(rule.classes(), expected, "order {order}, u = {u}");
+            }
+        }
+    }
 }

@@ -2,8 +2,8 @@
 //! **Oracles**: the functions themselves, on limits and on deeply refined points; implicit equations; the closed forms of
 //! regular polygons; the printed control points of Fang, Ma and Wang, Fig. 1.
 
-use eigenring_scheme::Error;
-use eigenring_scheme::curve::{Axis, Curve, Ends, Function, Grid, Space};
+use eigenring_spline::Error;
+use eigenring_spline::curve::{Axis, Curve, Ends, Function, Grid, Space};
 use eigenring_tests::Comparison;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI};
 

@@ -7,6 +7,9 @@ pub enum Error {
     /// From the rules: a valence, a parameter or a file that is not accepted.
     #[error(transparent)]
     Scheme(#[from] eigenring_scheme::Error),
+    /// Coefficients that are no spline.
+    #[error(transparent)]
+    Spline(#[from] eigenring_spline::Error),
     /// From running the rules.
     #[error(transparent)]
     Spectral(#[from] eigenring_spectral::Error),

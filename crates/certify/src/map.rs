@@ -27,7 +27,6 @@
 mod corner;
 pub mod find;
 mod gauss;
-mod polynomial;
 mod product;
 mod regular;
 mod subdivision;
@@ -35,16 +34,15 @@ mod winding;
 
 pub use corner::{Corner, corner};
 pub use gauss::{CurvatureEvidence, CurvatureRange, Heights, Sign, curvature};
-pub use polynomial::{Polynomial, Scaled};
-pub use product::Coefficient;
 pub use regular::{JacobianEvidence, Regularity, regular};
 pub use subdivision::{MAX_DEPTH, Subdivision};
 pub use winding::{Winding, WindingEvidence, winding};
 
 use crate::{Enclose, Interval};
 use eigenring_scheme::{Lattice, Numbering, Scalar, Site};
-use eigenring_spectral::bspline::to_bernstein;
 use eigenring_spectral::{Annulus, PatchIndex};
+use eigenring_spline::bernstein::{Coefficient, Polynomial};
+use eigenring_spline::uniform::to_bernstein;
 use serde::{Deserialize, Serialize};
 
 /// A net that is not what the checks need.
@@ -320,5 +318,7 @@ fn turn(k: usize, n: usize) -> (Interval, Interval) {
 
 #[cfg(test)]
 mod attacks;
+#[cfg(test)]
+mod bernstein;
 #[cfg(test)]
 mod tests;

@@ -16,9 +16,8 @@
 //! wider than derivatives over the range: for a product `a b - a(m) b(m) = (a - a(m)) b + a(m) (b - b(m))`.
 
 use crate::Interval;
-use crate::map::Coefficient;
-use eigenring_scheme::{Dual, Same, Scalar};
-use num_rational::BigRational;
+use eigenring_spline::bernstein::Coefficient;
+use eigenring_spline::{BigRational, Dual, Same, Scalar};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A scalar of a proof: whatever it carries, it knows an interval that holds its value.

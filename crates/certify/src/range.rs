@@ -23,7 +23,7 @@ use crate::certificate::{digest, from_json, is_written, to_json};
 use crate::map::{self, JacobianEvidence, WindingEvidence};
 use crate::{Centred, Error, Interval, Requirement, Statement, Status, Witness};
 use eigenring_scheme::lambda::{LambdaKnots, LambdaTable, Relaxation};
-use eigenring_scheme::{Knots, Scalar};
+use eigenring_spline::{Knots, Scalar, Spline};
 use point::Point;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -173,8 +173,8 @@ impl Problem {
             Curve::Splines { knots, f2, f3 } => {
                 let space = knots.knots()?;
                 // the right number of finite coefficients
-                eigenring_scheme::Spline::new(space.clone(), f2.clone())?;
-                eigenring_scheme::Spline::new(space.clone(), f3.clone())?;
+                Spline::new(space.clone(), f2.clone())?;
+                Spline::new(space.clone(), f3.clone())?;
                 Some(space)
             }
             Curve::Constant { f2, f3 } => {

@@ -8,6 +8,8 @@ pub enum Error {
     #[error(transparent)]
     Scheme(#[from] eigenring_scheme::Error),
     #[error(transparent)]
+    Spline(#[from] eigenring_spline::Error),
+    #[error(transparent)]
     Spectral(#[from] eigenring_spectral::Error),
     #[error(transparent)]
     Objective(#[from] eigenring_tune::objective::Error),

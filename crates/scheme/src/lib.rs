@@ -6,9 +6,7 @@
 //! [`Spec`] finds a scheme by name. All of it is generic over the [`Scalar`].
 
 mod corner;
-pub mod curve;
 mod definition;
-mod dual;
 mod error;
 mod exact;
 pub mod families;
@@ -22,34 +20,29 @@ mod number;
 mod one_ring;
 mod pass;
 mod reach;
-mod scalar;
 mod scheme;
 mod site;
 mod spec;
-mod spline;
 mod stencil;
 mod table;
 pub mod user;
 
 pub use corner::{Centre, Corner, MAX_SECTORS, Spoke};
 pub use definition::Definition;
-pub use dual::Dual;
+/// The number types that rules are generic over.
+pub use eigenring_spline::{BigRational, Dual, Same, Scalar};
 pub use error::{Error, RuleFault};
 pub use exact::{Exact, Parts};
 pub use fourier::{Complex, Form, FourierNet};
 pub use level::{Level, Symmetry};
 pub use line::{Line, Taps};
 pub use net::{DenseNet, Net, Plan, PointNet, refine};
-/// The rational numbers that [`Scalar::rational`] takes.
-pub use num_rational::BigRational;
 pub use number::Number;
 pub use one_ring::OneRing;
 pub use pass::Pass;
-pub use scalar::{Same, Scalar};
 pub use scheme::Scheme;
 pub use site::{Fan, Lattice, Numbering, Site};
 pub use spec::{Family, Spec, registry};
-pub use spline::{Basis, Knots, Spline};
 pub use stencil::Stencil;
 pub use table::{Table, Topology};
 

@@ -149,6 +149,23 @@ mod tests {
     }
 
     #[test]
+    fn values_are_the_nearest_doubles() {
+        // the standard library reads decimals correctly rounded
+        for text in [
+            "0.1",
+            "0.3333333333333333333333333333",
+            "123456789.123456789123456789",
+            "1e-310",
+            "2.5",
+            "5e-324",
+        ] {
+            let exact: Number = text.parse().unwrap();
+            assert_eq!(exact.value(), text.parse::<f64>().unwrap(), "{text}");
+            assert_eq!(exact.negated().value(), -text.parse::<f64>().unwrap(), "{text}");
+        }
+    }
+
+    #[test]
     fn no_digit_is_lost() {
         let long: Number = "0.250000000000000000001".parse().unwrap();
         assert_ne!(long, "1/4".parse().unwrap());

@@ -9,8 +9,8 @@
 //! annulus has 12 patches a sector with control points in rings 1 to 5.
 
 use crate::Error;
-use crate::bspline::{basis, to_bernstein};
 use eigenring_scheme::{Numbering, Scalar, Scheme, Site};
+use eigenring_spline::TensorPatch;
 
 /// The regular annulus of a scheme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,68 +103,6 @@ impl Annulus {
     }
 }
 
-/// A polynomial patch as a tensor-product uniform B-spline: `(d+1)^2` control values, the first parameter running fastest.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TensorPatch<S> {
-    /// The degree in each direction.
-    pub degree: usize,
-    /// The control values.
-    pub control: Vec<S>,
-}
-
-/// A function of two variables and its derivatives at a point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Jet<S> {
-    /// The value.
-    pub value: S,
-    /// First derivatives: by u, by v.
-    pub first: [S; 2],
-    /// Second derivatives: uu, uv, vv.
-    pub second: [S; 3],
-}
-
-impl<S: Scalar + Copy> TensorPatch<S> {
-    /// Value and derivatives at `(u, v)` in the unit square.
-    pub fn jet(&self, u: S, v: S) -> Jet<S> {
-        let (in_u, in_v) = (basis(self.degree, u), basis(self.degree, v));
-        let width = self.degree + 1;
-        let combine = |du: usize, dv: usize| {
-            let mut sum = S::zero();
-            for (row, &weight) in self.control.chunks(width).zip(&in_v[dv]) {
-                let mut inner = S::zero();
-                for (&value, &weight) in row.iter().zip(&in_u[du]) {
-                    inner += weight * value;
-                }
-                sum += weight * inner;
-            }
-            sum
-        };
-        Jet {
-            value: combine(0, 0),
-            first: [combine(1, 0), combine(0, 1)],
-            second: [combine(2, 0), combine(1, 1), combine(0, 2)],
-        }
-    }
-
-    /// The Bernstein coefficients, in the same order as the control values.
-    pub fn bernstein(&self) -> Vec<S> {
-        let (matrix, width) = (to_bernstein::<S>(self.degree), self.degree + 1);
-        let mut coefficients = Vec::with_capacity(width * width);
-        for row_v in &matrix {
-            for row_u in &matrix {
-                let mut sum = S::zero();
-                for (row, &weight_v) in self.control.chunks(width).zip(row_v) {
-                    for (&value, &weight_u) in row.iter().zip(row_u) {
-                        sum += weight_v * weight_u * value;
-                    }
-                }
-                coefficients.push(sum);
-            }
-        }
-        coefficients
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -234,18 +172,6 @@ mod tests {
                     assert!((4.0 * found.second[1] - expected.second[1]).abs() < 1e-11);
                 }
             }
-        }
-    }
-
-    #[test]
-    fn bernstein_corners_interpolate() {
-        let patch = TensorPatch {
-            degree: 3,
-            control: (0..16).map(|i| f64::from(i * i % 7)).collect(),
-        };
-        let bernstein = patch.bernstein();
-        for (index, (u, v)) in [(0, (0.0, 0.0)), (3, (1.0, 0.0)), (12, (0.0, 1.0)), (15, (1.0, 1.0))] {
-            assert!((bernstein[index] - patch.jet(u, v).value).abs() < 1e-14);
         }
     }
 }

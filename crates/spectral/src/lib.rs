@@ -6,7 +6,6 @@
 //! in `f64`.
 
 mod annulus;
-pub mod bspline;
 mod components;
 mod echelon;
 mod eigen;
@@ -17,7 +16,7 @@ mod rings;
 mod spectrum;
 mod system;
 
-pub use annulus::{Annulus, Jet, PatchIndex, TensorPatch};
+pub use annulus::{Annulus, PatchIndex};
 pub use eigen::{BlockEigenvalue, EQUAL, Eigenspace, MERGED, NULL};
 pub use error::Error;
 pub use maps::{Graph, Maps};

@@ -9,8 +9,9 @@
 //! All maps here have `E_0 = 1` (the cup too, the face mode `F_0 = 1`): other normalisations are factors. z as a function of
 //! (x, y) has the derivatives of [`Graph`], by the chain rule through the Jacobian.
 
-use crate::{Annulus, Error, Jet, LocalSystem, Mode, PatchIndex};
+use crate::{Annulus, Error, LocalSystem, Mode, PatchIndex};
 use eigenring_scheme::Scheme;
+use eigenring_spline::Jet;
 
 /// The maps of a scheme: nets over the annulus's numbering.
 #[derive(Clone, Debug)]

@@ -9,9 +9,10 @@
 //! All schemes are measured on the annulus `[2, 4]` and normalised by unit Euclidean norm over the rings that carry it
 //! (five rings for bicubic ones), as in the tuning.
 
-use crate::objective::quadrature::gauss_legendre;
 use eigenring_scheme::{Lattice, Scheme, Site};
-use eigenring_spectral::{Annulus, Error, Graph, Maps, TensorPatch};
+use eigenring_spectral::{Annulus, Error, Graph, Maps};
+use eigenring_spline::TensorPatch;
+use eigenring_spline::quadrature::gauss_legendre;
 
 /// One second-order map's share.
 #[derive(Clone, Copy, Debug, PartialEq)]

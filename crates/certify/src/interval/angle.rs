@@ -11,7 +11,7 @@
 //! `atan t = pi/2 - atan(1/t)`, and an interval is mapped by its ends, the function being increasing.
 
 use super::{Interval, turn};
-use eigenring_scheme::Scalar;
+use eigenring_spline::Scalar;
 
 impl Interval {
     /// The arc tangents of the members.

@@ -6,7 +6,7 @@
 
 use super::Interval;
 use super::oracle::{Operands, UNIT, between, units};
-use eigenring_scheme::Scalar;
+use eigenring_spline::Scalar;
 use num_bigint::{BigInt, Sign};
 
 const COUNT: usize = 100_000;

@@ -1,7 +1,7 @@
 //! The field operations, roots and powers of intervals, and the scalar of the schemes they make.
 
 use super::{Interval, round, turn};
-use eigenring_scheme::{Same, Scalar};
+use eigenring_spline::{Same, Scalar};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};

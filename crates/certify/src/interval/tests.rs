@@ -1,7 +1,7 @@
 //! Intervals against exact rational arithmetic.
 
 use super::Interval;
-use eigenring_scheme::{Dual, Scalar};
+use eigenring_spline::{Dual, Scalar};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};

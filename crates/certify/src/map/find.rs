@@ -7,9 +7,10 @@
 use super::gauss::{self, CurvatureEvidence, Heights, Sign};
 use super::regular::JacobianEvidence;
 use super::winding::{self, WindingEvidence};
-use super::{Place, PlaneNet, Polynomial, Subdivision};
+use super::{Place, PlaneNet, Subdivision};
 use crate::{Enclose, Interval};
 use eigenring_spectral::PatchIndex;
+use eigenring_spline::bernstein::Polynomial;
 
 /// When to give up, and how sharp a curvature bound should be.
 #[derive(Clone, Copy, Debug, PartialEq)]

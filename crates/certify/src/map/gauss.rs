@@ -29,11 +29,12 @@
 //! factor `|x|^4 / |z|^2`. On the image of the annulus under m scalings, K has the same sign.
 
 use super::regular::between;
-use super::{Coefficient, NetError, Place, PlaneNet, Polynomial, Scaled, Subdivision, check_symmetry};
+use super::{NetError, Place, PlaneNet, Subdivision, check_symmetry};
 use crate::{Enclose, Interval, Status};
-use eigenring_scheme::Scalar;
 use eigenring_spectral::PatchIndex;
-use eigenring_spectral::bspline::to_bernstein;
+use eigenring_spline::Scalar;
+use eigenring_spline::bernstein::{Coefficient, Polynomial, Scaled};
+use eigenring_spline::uniform::to_bernstein;
 use serde::{Deserialize, Serialize};
 
 /// The heights of second-order maps over a plane net: one real mode, or real and imaginary part of a complex one.

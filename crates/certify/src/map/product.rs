@@ -33,41 +33,10 @@
 //!
 //! Nothing overflows below [`LARGE`]; beyond it the plain product over intervals is taken.
 
-use super::polynomial::Scaled;
 use crate::{Centred, Interval};
-use eigenring_scheme::{Dual, Scalar};
+use eigenring_spline::bernstein::{Coefficient, Scaled, convolution};
 
-/// A scalar that can be the coefficient of a polynomial.
-pub trait Coefficient: Scalar + Copy {
-    /// The product of two polynomials with coefficients scaled by binomials.
-    fn product(a: &Scaled<Self>, b: &Scaled<Self>) -> Scaled<Self> {
-        plain(a, b)
-    }
-}
-
-impl Coefficient for f64 {}
-impl<S: Scalar + Copy, const D: usize> Coefficient for Dual<S, D> {}
 impl<const D: usize> Coefficient for Centred<D> {}
-
-fn plain<S: Scalar + Copy>(a: &Scaled<S>, b: &Scaled<S>) -> Scaled<S> {
-    let ([m, n], [p, q]) = (a.degree, b.degree);
-    let width = m + p + 1;
-    let mut coefficients = vec![S::zero(); width * (n + q + 1)];
-    for (j, row) in a.coefficients.chunks(m + 1).enumerate() {
-        for (l, other) in b.coefficients.chunks(p + 1).enumerate() {
-            let sums = &mut coefficients[(j + l) * width..][..width];
-            for (i, &value) in row.iter().enumerate() {
-                for (sum, &factor) in sums[i..].iter_mut().zip(other) {
-                    *sum += value * factor;
-                }
-            }
-        }
-    }
-    Scaled {
-        degree: [m + p, n + q],
-        coefficients,
-    }
-}
 
 /// Coefficients beyond this could make a sum of products overflow; the plain product handles them. Below it a
 /// product is at most `6 LARGE^2` (a radius may be twice a magnitude), and `2^20` of them stay below `1e287`.
@@ -75,23 +44,16 @@ const LARGE: f64 = 1e140;
 
 impl Coefficient for Interval {
     fn product(a: &Scaled<Self>, b: &Scaled<Self>) -> Scaled<Self> {
-        let moderate = |f: &Scaled<Self>| f.coefficients.iter().all(|c| c.mag() < LARGE);
+        let moderate = |f: &Scaled<Self>| f.coefficients().iter().all(|c| c.mag() < LARGE);
         // each coefficient of the product is a sum of at most so many terms: so few that n u stays far below
         // one
-        let terms = a.coefficients.len().min(b.coefficients.len());
+        let terms = a.coefficients().len().min(b.coefficients().len());
         if !(moderate(a) && moderate(b) && terms < 1 << 20) {
-            return plain(a, b);
+            return convolution(a, b);
         }
         let unit = f64::EPSILON / 2.0;
         let terms = terms as f64;
-        let map = |f: &Scaled<Self>, g: &dyn Fn(Interval) -> f64| {
-            let coefficients = f.coefficients.iter().map(|&c| g(c)).collect();
-            Scaled {
-                degree: f.degree,
-                coefficients,
-            }
-        };
-        let middle = plain(&map(a, &Interval::mid), &map(b, &Interval::mid));
+        let middle = convolution(&a.map(|c| c.mid()), &b.map(|c| c.mid()));
         let rounding = (terms + 2.0) * unit;
         let tiny = f64::from_bits(1);
         let with_rounding = |c: Interval| {
@@ -100,24 +62,11 @@ impl Coefficient for Interval {
             let own = if size == 0.0 { 0.0 } else { rounding * size + tiny };
             c.radius() + own
         };
-        let by_middle = plain(&map(a, &|c| c.mid().abs()), &map(b, &with_rounding));
-        let by_radius = plain(&map(a, &Interval::radius), &map(b, &|c| c.mid().abs() + c.radius()));
+        let by_middle = convolution(&a.map(|c| c.mid().abs()), &b.map(with_rounding));
+        let by_radius = convolution(&a.map(|c| c.radius()), &b.map(|c| c.mid().abs() + c.radius()));
         let (factor, underflow) = (1.0 + (terms + 16.0) * f64::EPSILON, 16.0 * terms * tiny);
-        let radii = by_middle
-            .coefficients
-            .iter()
-            .zip(&by_radius.coefficients)
-            .map(|(r, s)| (r + s) * factor + underflow);
-        let coefficients = middle
-            .coefficients
-            .iter()
-            .zip(radii)
-            .map(|(&m, r)| Interval::around(m, r))
-            .collect();
-        Scaled {
-            degree: middle.degree,
-            coefficients,
-        }
+        let radii = by_middle.zip(&by_radius, |r, s| (r + s) * factor + underflow);
+        middle.zip(&radii, Interval::around)
     }
 }
 
@@ -133,11 +82,8 @@ mod tests {
         BigRational::from_float(value).expect("finite")
     }
 
-    fn scaled<T>(degree: [usize; 2], f: impl FnMut(usize) -> T) -> Scaled<T> {
-        Scaled {
-            degree,
-            coefficients: (0..(degree[0] + 1) * (degree[1] + 1)).map(f).collect(),
-        }
+    fn scaled<T: Copy>(degree: [usize; 2], mut f: impl FnMut(usize) -> T) -> Scaled<T> {
+        Scaled::from_fn(degree, |i, j| f(j * (degree[0] + 1) + i))
     }
 
     proptest! {
@@ -155,8 +101,8 @@ mod tests {
             let (a, b) = (scaled([2, 3], |i| member(i).0), scaled([3, 2], |i| member(12 + i).0));
             let exact = |at: usize| rational(member(at).1);
             let found = Interval::product(&a, &b);
-            prop_assert_eq!(found.degree, [5, 5]);
-            for (index, found) in found.coefficients.iter().enumerate() {
+            prop_assert_eq!(found.degree(), [5, 5]);
+            for (index, found) in found.coefficients().iter().enumerate() {
                 let (k, l) = (index % 6, index / 6);
                 let mut sum = rational(0.0);
                 for i in 0..3 {
@@ -175,7 +121,7 @@ mod tests {
     /// Whether the product of two polynomials given by points holds the exact one.
     fn holds_exactly(a: &[f64; 4], b: &[f64; 4]) -> Result<(), String> {
         let [f, g] = [a, b].map(|c| scaled([3, 0], |i| Interval::point(c[i])));
-        for (k, found) in Interval::product(&f, &g).coefficients.iter().enumerate() {
+        for (k, found) in Interval::product(&f, &g).coefficients().iter().enumerate() {
             let terms = (0..4).filter(|i| (i..&(i + 4)).contains(&&k));
             let exact: BigInt = terms.map(|i| units(a[i]) * units(b[k - i])).sum();
             if !oracle::between(*found, &exact, UNIT) {
@@ -229,7 +175,7 @@ mod tests {
         let ones = scaled([1, 0], |_| Interval::point(1.0));
         assert!(
             Interval::product(&entire, &ones)
-                .coefficients
+                .coefficients()
                 .iter()
                 .all(|&c| c == Interval::ENTIRE)
         );

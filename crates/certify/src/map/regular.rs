@@ -9,8 +9,9 @@
 //! constant and 1 or -1. The normals of almost all surfaces then point to both sides (Peters and Reif 2008, section 5.2). A Jacobian that
 //! merely touches zero refutes nothing.
 
-use super::{Place, PlaneNet, Polynomial, Subdivision};
+use super::{Place, PlaneNet, Subdivision};
 use crate::{Enclose, Interval, Status};
+use eigenring_spline::bernstein::Polynomial;
 use serde::{Deserialize, Serialize};
 
 /// A claim about the Jacobian.

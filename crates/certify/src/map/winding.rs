@@ -19,11 +19,11 @@
 //! symmetry it is `k / N + j` for an integer j, of which that range holds at most one; the N sectors together wind
 //! `k + N j` times.
 
-use super::polynomial::halves;
 use super::{PlaneNet, Subdivision};
 use crate::{Enclose, Status};
 use eigenring_spectral::PatchIndex;
-use eigenring_spectral::bspline::to_bernstein;
+use eigenring_spline::bernstein::halves;
+use eigenring_spline::uniform::to_bernstein;
 use serde::{Deserialize, Serialize};
 
 /// The parts of each boundary curve of sector 0, from the own spoke to the next, that lie in half-planes.

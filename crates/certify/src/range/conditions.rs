@@ -15,7 +15,7 @@
 
 use super::point::Point;
 use crate::{Centred, Enclose, Interval, Status, Witness};
-use eigenring_scheme::Scalar;
+use eigenring_spline::Scalar;
 
 /// Whether a number is positive.
 fn positive(value: Centred<1>) -> Status {

@@ -2,8 +2,8 @@
 
 use super::Problem;
 use crate::{Centred, Enclose, Interval};
-use eigenring_scheme::Scalar;
 use eigenring_scheme::lambda::{Addition, Branch, LambdaStencil, Plane, Relaxation, Term};
+use eigenring_spline::Scalar;
 
 /// All schemes of an interval of lambda, on one branch of s.
 #[derive(Clone, Debug)]

@@ -16,8 +16,7 @@ use crate::progress::note;
 use crate::table::{Format, Record, Table, pretty};
 use clap::Args;
 use eigenring_figure::{Figure, Width};
-use eigenring_scheme::curve::{Curve, Ends, Grid};
-use eigenring_scheme::families::MAX_ORDER;
+use eigenring_spline::curve::{Curve, Ends, Grid, MAX_ORDER};
 use example::{Exact, MOST};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -183,7 +182,7 @@ impl Arguments {
         let order = self.order.unwrap_or(4);
         let curve = Curve::new(order, self.u0.unwrap_or(1.0), ends, &points).map_err(|error| match error {
             // what is wrong with the file, and not with the options
-            eigenring_scheme::Error::ControlPoints { .. } => Error::BadFile {
+            eigenring_spline::Error::ControlPoints { .. } => Error::BadFile {
                 path: path.clone(),
                 message: match ends {
                     Ends::Open => format!("{error} (open, order {order})"),

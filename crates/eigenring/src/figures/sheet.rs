@@ -16,7 +16,8 @@
 
 use crate::error::Error;
 use eigenring_scheme::{Lattice, Scheme};
-use eigenring_spectral::{Annulus, Graph, Jet, LocalSystem, Maps, PatchIndex};
+use eigenring_spectral::{Annulus, Graph, LocalSystem, Maps, PatchIndex};
+use eigenring_spline::Jet;
 
 /// A point of a map with the value that is shown there.
 #[derive(Clone, Copy, Debug, PartialEq)]

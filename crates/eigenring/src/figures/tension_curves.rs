@@ -9,7 +9,7 @@ use super::{Drawing, Entry, Inputs};
 use crate::error::Error;
 use crate::table::Table;
 use eigenring_figure::{Chart, Colour, Dash, Figure, Marker, Panel, Side, Stroke, Style, Width, range_of};
-use eigenring_scheme::curve::{Curve, Ends};
+use eigenring_spline::curve::{Curve, Ends};
 
 pub const ENTRY: Entry = Entry {
     name: "tension-curves",

@@ -18,8 +18,8 @@
 use super::doo_sabin::CORNER;
 use crate::{Error, Fan, Lattice, Level, Line, Pass, Same, Scalar, Scheme, Site, Stencil};
 
-/// The largest order: the local matrix of order k has about `N k^2 / 4` rows, and nothing beyond degree 31 is of use.
-pub const MAX_ORDER: usize = 32;
+/// The largest order, that of curves: the local matrix of order k has about `N k^2 / 4` rows.
+pub use eigenring_spline::curve::MAX_ORDER;
 
 /// Levels that are told apart from the limit level: `u - 1` shrinks by 4 a level, and u is at most the largest double.
 const MAX_LEADING: usize = 600;

@@ -1,6 +1,6 @@
 //! The knot vector of the spline stencils.
 
-use crate::{Error, Knots};
+use eigenring_spline::{Error, Knots};
 use serde::{Deserialize, Serialize};
 
 /// The five knots that determine the spline space of a valence (Ma, Wang and Ma 2023, Eq. 21): cubic, with the end knots

@@ -6,7 +6,8 @@
 //! diagonal, so f3 is `mu = s lambda^2` by formula; the tabulated spline only approximates it and is kept to be compared.
 
 use super::{LambdaKnots, Relaxation};
-use crate::{Error, Spline};
+use crate::Error;
+use eigenring_spline::{Error as Refused, Spline};
 use serde::{Deserialize, Serialize};
 use std::sync::OnceLock;
 
@@ -245,16 +246,17 @@ impl Entry {
     /// f2 and f3 at `lambda` (Eq. 22; f3 at valence 4 is mu).
     ///
     /// # Errors
-    /// [`Error::OutsideSpline`] unless `lambda` lies between the first and the last knot.
+    /// [`OutsideSpline`](Refused::OutsideSpline) unless `lambda` lies between the first and the last knot.
     pub fn weights(&self, lambda: f64) -> Result<(f64, f64), Error> {
         let knots = self.knots.knots()?;
         let Some(span) = knots.span(lambda) else {
             let (lower, upper) = knots.domain();
-            return Err(Error::OutsideSpline {
+            return Err(Refused::OutsideSpline {
                 value: lambda,
                 lower,
                 upper,
-            });
+            }
+            .into());
         };
         let basis = knots.basis(span, lambda);
         let f2 = basis.combine(&basis.values, &self.f2);
@@ -278,17 +280,17 @@ impl Entry {
     /// The spline of f2.
     ///
     /// # Errors
-    /// [`Error::Knots`] or [`Error::Coefficients`] if the entry's numbers are not a spline.
+    /// [`Knots`](Refused::Knots) or [`Coefficients`](Refused::Coefficients) if the entry's numbers are not a spline.
     pub fn f2_spline(&self) -> Result<Spline, Error> {
-        Spline::new(self.knots.knots()?, self.f2.to_vec())
+        Ok(Spline::new(self.knots.knots()?, self.f2.to_vec())?)
     }
 
     /// The spline of f3; at valence 4 only an approximation of mu.
     ///
     /// # Errors
-    /// [`Error::Knots`] or [`Error::Coefficients`] if the entry's numbers are not a spline.
+    /// [`Knots`](Refused::Knots) or [`Coefficients`](Refused::Coefficients) if the entry's numbers are not a spline.
     pub fn f3_spline(&self) -> Result<Spline, Error> {
-        Spline::new(self.knots.knots()?, self.f3.to_vec())
+        Ok(Spline::new(self.knots.knots()?, self.f3.to_vec())?)
     }
 
     fn validate(&self) -> Result<(), Error> {
@@ -394,7 +396,10 @@ mod tests {
         }
         assert_eq!(entry.optimal().unwrap(), entry.weights(0.5).unwrap());
         for lambda in [0.149, 0.901, f64::NAN] {
-            assert!(matches!(entry.weights(lambda), Err(Error::OutsideSpline { .. })));
+            assert!(matches!(
+                entry.weights(lambda),
+                Err(Error::Spline(Refused::OutsideSpline { .. }))
+            ));
         }
     }
 
@@ -452,9 +457,12 @@ mod tests {
         ));
         assert!(matches!(
             with(|entry| entry.f3[4] = f64::NAN),
-            Error::Coefficients { .. }
+            Error::Spline(Refused::Coefficients { .. })
         ));
-        assert!(matches!(with(|entry| entry.knots.b = 0.4), Error::Knots { .. }));
+        assert!(matches!(
+            with(|entry| entry.knots.b = 0.4),
+            Error::Spline(Refused::Knots { .. })
+        ));
         for change in [
             (|entry| entry.lambda_optimal = 0.95) as fn(&mut Entry),
             |entry| entry.lambda_l = f64::NAN,

@@ -1,6 +1,6 @@
 //! Complex numbers over any scalar: the Fourier modes (over `f64`) and the spin components (over lanes).
 
-use eigenring_scheme::Scalar;
+use eigenring_spline::Scalar;
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// `re + i im`.

@@ -1,6 +1,6 @@
 //! The objective straight from its definition, slowly: the oracle of the tests.
 //!
-//! Nothing of the fast evaluation is used. The local matrix of the five rings is written down densely from the rules, eigenvectors
+//! Of the fast evaluation only the quadrature is used, whose nodes are held against exact arithmetic where they are made. The local matrix of the five rings is written down densely from the rules, eigenvectors
 //! come from inverse iteration on its one-ring block and a linear solve for the second ring, every patch of every sector is
 //! evaluated, and the integrals over the inner annuli are either summed one by one or by their geometric series.
 
@@ -8,6 +8,7 @@ use super::{Normalisation, Objective, Settings};
 use approx::assert_relative_eq;
 use eigenring_scheme::OneRing;
 use eigenring_scheme::lambda::Plane;
+use eigenring_spline::quadrature::gauss_legendre;
 use std::f64::consts::{PI, TAU};
 
 const RINGS: i32 = 5;
@@ -179,14 +180,6 @@ struct Sampled {
     hessians: [Vec<[f64; 3]>; 3],
 }
 
-/// Five Gauss points on [0, 1] from their radicals.
-fn nodes() -> [(f64, f64); 5] {
-    let (near, far) = ((10.0_f64 / 7.0).sqrt(), 70.0_f64.sqrt());
-    let (x, y) = ((5.0 - 2.0 * near).sqrt() / 3.0, (5.0 + 2.0 * near).sqrt() / 3.0);
-    let (p, q) = ((322.0 + 13.0 * far) / 900.0, (322.0 - 13.0 * far) / 900.0);
-    [(-y, q), (-x, p), (0.0, 128.0 / 225.0), (x, p), (y, q)].map(|(t, w)| ((1.0 + t) / 2.0, w / 2.0))
-}
-
 /// The cubic B-spline with support [-2, 2] and its first two derivatives.
 fn spline(t: f64) -> [f64; 3] {
     let (r, sign) = (t.abs(), t.signum());
@@ -213,8 +206,9 @@ impl Sampled {
         let patches = (0..4).flat_map(|p| (0..4).map(move |q| (p, q)));
         for (p, q) in patches.filter(|&(p, q)| p.max(q) >= 2) {
             for sector in 0..local.valence {
-                for (u, wu) in nodes() {
-                    for (v, wv) in nodes() {
+                let rule = gauss_legendre(5);
+                for (u, wu) in rule.iter().map(|node| (node.at, node.weight)) {
+                    for (v, wv) in rule.iter().map(|node| (node.at, node.weight)) {
                         let derivatives = |field: &[f64]| {
                             let mut d = [0.0; 5];
                             for a in p - 1..=p + 2 {

@@ -3,7 +3,7 @@
 //! All points run through the same formulas, so the evaluation handles [`WIDTH`] of them in one array; the compiler turns
 //! the arrays into vector registers without any target flag.
 
-use eigenring_scheme::{BigRational, Same, Scalar};
+use eigenring_spline::{BigRational, Same, Scalar};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// Points per block: what one register of the baseline of x86-64 and of aarch64 holds. Wider blocks have been measured and

@@ -26,7 +26,6 @@ mod fields;
 mod jet;
 mod lanes;
 mod maps;
-pub(crate) mod quadrature;
 mod rings;
 mod saddle;
 mod sectors;
@@ -38,7 +37,7 @@ mod weight;
 pub use settings::{Error, Normalisation, Settings};
 
 use eigenring_scheme::lambda::Plane;
-use eigenring_scheme::{Dual, Scalar};
+use eigenring_spline::{Dual, Scalar};
 use evaluate::{Coefficients, Outcome, SIGNS, Slope, curvature_extremes, evaluate};
 use fields::{Fields, Turns};
 use maps::Annuli;

@@ -7,7 +7,7 @@
 //! outer rings depend linearly on the first.
 
 use super::complex::Complex;
-use eigenring_scheme::Scalar;
+use eigenring_spline::Scalar;
 
 /// The rings carried: patches of the third and fourth layer need five.
 const RINGS: usize = 5;

@@ -1,7 +1,7 @@
 //! Coordinates in units of the domain, and the way back into it.
 
-use eigenring_scheme::Dual;
 use eigenring_scheme::lambda::{Curve, Domain, F2Interval};
+use eigenring_spline::Dual;
 
 /// A domain with its two units of length.
 pub(super) struct Frame<'a> {

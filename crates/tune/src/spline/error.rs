@@ -24,7 +24,7 @@ impl std::fmt::Display for Side {
 pub enum FitError {
     /// The knots are not those of a spline space.
     #[error(transparent)]
-    Scheme(#[from] eigenring_scheme::Error),
+    Spline(#[from] eigenring_spline::Error),
     /// Smoothness and energy are written down for quadratic and cubic splines.
     #[error("degree {degree} is out of range: accepted are 2 and 3")]
     Degree {

@@ -20,7 +20,7 @@ use super::error::{FitError, Side};
 use super::interior;
 use super::kkt::{self, Kkt};
 use super::reduce::{Factored, Row};
-use eigenring_scheme::{Knots, Spline};
+use eigenring_spline::{Knots, Spline};
 
 /// A value to be approximated.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use super::*;
 use eigenring_scheme::lambda::{LambdaKnots, PAPER_TABLE_1};
-use eigenring_scheme::{Knots, Spline};
+use eigenring_spline::{Knots, Spline};
 
 pub(super) const KNOTS: LambdaKnots = LambdaKnots {
     a: 0.15,

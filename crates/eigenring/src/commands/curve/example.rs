@@ -19,7 +19,7 @@
 
 use crate::error::Error;
 use clap::ValueEnum;
-use eigenring_scheme::curve::{Axis, Curve, Ends, Function, Space};
+use eigenring_spline::curve::{Axis, Curve, Ends, Function, Space};
 use std::f64::consts::{FRAC_PI_4, PI};
 
 /// A built-in curve.

@@ -3,7 +3,7 @@
 use super::MOST_POINTS;
 use crate::error::Error;
 use crate::table::Table;
-use eigenring_scheme::curve::{Axis, Curve, Ends};
+use eigenring_spline::curve::{Axis, Curve, Ends};
 
 /// Levels beyond this are closer to the limit than its rounding errors.
 const MOST_LEVELS: u32 = 30;

@@ -6,7 +6,7 @@
 use super::levels::coordinates;
 use crate::error::Error;
 use eigenring_figure::{Axis, Chart, Colour, Dash, Figure, Marker, Panel, Side, Stroke, Style, Width, range_of};
-use eigenring_scheme::curve::{Curve, Ends};
+use eigenring_spline::curve::{Curve, Ends};
 
 /// Levels that are drawn; later ones cannot be told from the limit.
 const LEVELS: usize = 4;

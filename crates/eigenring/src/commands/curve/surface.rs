@@ -7,7 +7,7 @@ use super::picture::{size_of, visible_range};
 use crate::error::Error;
 use crate::table::Table;
 use eigenring_figure::{Colour, ColourMap, ColourScale, Figure, Panel, Stroke, Surface, View, Width, range_of};
-use eigenring_scheme::curve::{Curve, Ends, Grid};
+use eigenring_spline::curve::{Curve, Ends, Grid};
 use std::fmt::Write;
 
 /// The grid that the curve sweeps, in so many segments around the axis.

@@ -4,10 +4,11 @@ use super::Axis;
 use super::polygon::{finite, flatten};
 use crate::Error;
 
-/// A grid of control points with an order and a tension in each direction, or one that was refined from it: Fang, Ma and
-/// Wang, Algorithm 1.
+/// A grid of control points with an order and a tension in each direction, or one that was refined from it:
+/// Fang, Ma and Wang, Algorithm 1.
 ///
-/// Point `(i, j)` stands at `i * v().count() + j`; i runs along the first direction, u, and j along the second, v.
+/// Point `(i, j)` stands at `i * v().count() + j`; i runs along the first direction, u, and j along the
+/// second, v.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     u: Axis,
@@ -20,8 +21,8 @@ impl Grid {
     /// The surface of `u.count() * v.count()` control points.
     ///
     /// # Errors
-    /// [`Error::GridPoints`] for another number of points; [`Error::Dimension`] if points differ in dimension or have none;
-    /// [`Error::NotFinite`].
+    /// [`Error::GridPoints`] for another number of points; [`Error::Dimension`] if points differ in dimension
+    /// or have none; [`Error::NotFinite`].
     pub fn new<P: AsRef<[f64]>>(u: Axis, v: Axis, points: &[P]) -> Result<Self, Error> {
         let (rows, columns) = (u.count(), v.count());
         if rows.checked_mul(columns) != Some(points.len()) {
@@ -68,7 +69,8 @@ impl Grid {
     /// The points after one more level in both directions.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] if coordinates overflow, [`Error::ControlPoints`] if there would be too many points.
+    /// [`Error::NotFinite`] if coordinates overflow, [`Error::ControlPoints`] if there would be too many
+    /// points.
     pub fn refine(&self) -> Result<Self, Error> {
         // a grid is a polygon of rows, and its transpose one of columns
         let (u, values) = self.u.refine(self.v.count() * self.dimension, self.values.clone())?;
@@ -89,13 +91,14 @@ impl Grid {
     /// The limit point at parameters `(s, t)` of the first and second direction.
     ///
     /// # Errors
-    /// [`Error::OutsideSpline`] if a parameter is outside of its domain, [`Error::NotFinite`] if coordinates overflow.
+    /// [`Error::OutsideSpline`] if a parameter is outside of its domain, [`Error::NotFinite`] if coordinates
+    /// overflow.
     pub fn limit(&self, s: f64, t: f64) -> Result<Vec<f64>, Error> {
         self.combine(&self.u.weights(s)?, &self.v.weights(t)?)
     }
 
-    /// Limit points at `per_interval` parameters between knots of either direction, and at the ends of the domains: for each
-    /// parameter of the first direction a row of points along the second.
+    /// Limit points at `per_interval` parameters between knots of either direction, and at the ends of the
+    /// domains: for each parameter of the first direction a row of points along the second.
     ///
     /// # Errors
     /// [`Error::NotFinite`] if coordinates overflow, [`Error::ControlPoints`] if there would be too many.

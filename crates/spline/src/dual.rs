@@ -4,8 +4,9 @@ use crate::{Same, Scalar};
 use num_rational::BigRational;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// `value + sum_j parts[j] eps_j` with `eps_i eps_j = 0`: running a formula on duals gives its value and its exact
-/// derivatives in `D` directions. The inner scalar may be an interval, which gives mean-value enclosures.
+/// `value + sum_j parts[j] eps_j` with `eps_i eps_j = 0`: running a formula on duals gives its value and its
+/// exact derivatives in `D` directions. The inner scalar may be an interval, which gives mean-value
+/// enclosures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<S, const D: usize = 1> {
     /// The value.

@@ -4,14 +4,14 @@ use super::{Curve, Ends, Function, Grid};
 use crate::Error;
 
 impl Grid {
-    /// The surface that a spatial curve sweeps around the third axis. The first direction is that of the curve; around the
-    /// axis there are `segments` control points, with the tension `cos(pi / segments)` of an exact circle. Points at radius
-    /// 1 go out to `1 / (cos(a) (sin(a)/a)^(order-3))`, `a = pi / segments`: for order 3 and 4 segments, which is the
-    /// published algorithm, `sqrt 2`.
+    /// The surface that a spatial curve sweeps around the third axis. The first direction is that of the
+    /// curve; around the axis there are `segments` control points, with the tension `cos(pi / segments)` of
+    /// an exact circle. Points at radius 1 go out to `1 / (cos(a) (sin(a)/a)^(order-3))`,
+    /// `a = pi / segments`: for order 3 and 4 segments, which is the published algorithm, `sqrt 2`.
     ///
     /// # Errors
-    /// [`Error::Revolution`] unless the curve has three coordinates; [`Error::Order`]; [`Error::ControlPoints`] for fewer than
-    /// 3 segments; [`Error::NotFinite`] if coordinates overflow.
+    /// [`Error::Revolution`] unless the curve has three coordinates; [`Error::Order`];
+    /// [`Error::ControlPoints`] for fewer than 3 segments; [`Error::NotFinite`] if coordinates overflow.
     pub fn revolution(generatrix: &Curve, order: usize, segments: usize) -> Result<Grid, Error> {
         if generatrix.dimension() != 3 {
             return Err(Error::Revolution {

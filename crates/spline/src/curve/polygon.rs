@@ -12,10 +12,12 @@ pub struct Curve {
 }
 
 impl Curve {
-    /// The curve of order `order` with initial tension `u0` and the given control points, all of one dimension.
+    /// The curve of order `order` with initial tension `u0` and the given control points, all of one
+    /// dimension.
     ///
     /// # Errors
-    /// Those of [`Axis::new`]; [`Error::Dimension`] if points differ in dimension or have none; [`Error::NotFinite`].
+    /// Those of [`Axis::new`]; [`Error::Dimension`] if points differ in dimension or have none;
+    /// [`Error::NotFinite`].
     pub fn new<P: AsRef<[f64]>>(order: usize, u0: f64, ends: Ends, points: &[P]) -> Result<Self, Error> {
         let axis = Axis::new(order, u0, ends, points.len())?;
         let (dimension, values) = flatten(points)?;
@@ -49,7 +51,8 @@ impl Curve {
     /// The points after one more level. An open polygon of n points has `2n - k + 1` then, a closed one 2n.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] if coordinates overflow, [`Error::ControlPoints`] if there would be too many points.
+    /// [`Error::NotFinite`] if coordinates overflow, [`Error::ControlPoints`] if there would be too many
+    /// points.
     pub fn refine(&self) -> Result<Self, Error> {
         let (axis, values) = self.axis.refine(self.dimension, self.values.clone())?;
         Curve::from_parts(axis, self.dimension, values)
@@ -71,8 +74,8 @@ impl Curve {
         self.combine(&self.axis.weights(t)?)
     }
 
-    /// Limit points at `per_interval` equally spaced parameters between any two knots, and at the end of the domain; each
-    /// with its parameter. The last point of a closed curve is its first.
+    /// Limit points at `per_interval` equally spaced parameters between any two knots, and at the end of the
+    /// domain; each with its parameter. The last point of a closed curve is its first.
     ///
     /// # Errors
     /// [`Error::NotFinite`] if coordinates overflow, [`Error::ControlPoints`] if there would be too many.

@@ -1,6 +1,7 @@
 //! Open-knot B-spline functions of one variable.
 //!
-//! Knots `u_0 <= ... <= u_{n+p}` of degree p carry n basis functions (Cox 1972, de Boor 1972), with `0/0 = 0`:
+//! Knots `u_0 <= ... <= u_{n+p}` of degree p carry n basis functions (Cox 1972, de Boor 1972), with
+//! `0/0 = 0`:
 //!
 //! ```text
 //! N_{i,0}(u) = 1 on [u_i, u_{i+1}), else 0
@@ -8,13 +9,15 @@
 //! N'_{i,p}   = p [ N_{i,p-1}/(u_{i+p} - u_i) - N_{i+1,p-1}/(u_{i+p+1} - u_{i+1}) ]
 //! ```
 //!
-//! (Piegl and Tiller, *The NURBS Book*, 1997, Eqs. 2.5 and 2.7.) The knots are *open*: the end knots have multiplicity
-//! p+1, so that the domain is `[u_0, u_{n+p}]` and the spline takes its first and last coefficient at the ends. A knot of
-//! multiplicity m leaves p-m continuous derivatives; interior multiplicities go up to p, a kink.
+//! (Piegl and Tiller, *The NURBS Book*, 1997, Eqs. 2.5 and 2.7.) The knots are *open*: the end knots have
+//! multiplicity p+1, so that the domain is `[u_0, u_{n+p}]` and the spline takes its first and last
+//! coefficient at the ends. A knot of multiplicity m leaves p-m continuous derivatives; interior
+//! multiplicities go up to p, a kink.
 //!
-//! On a *span*, an index j with `u_j < u_{j+1}`, the p+1 functions `N_{j-p} .. N_j` are polynomials and all others vanish.
-//! The span is found in f64, the polynomials are evaluated in any [`Scalar`] and may be continued beyond their span, which
-//! gives one-sided derivatives at a multiple knot and enclosures over intervals of the argument.
+//! On a *span*, an index j with `u_j < u_{j+1}`, the p+1 functions `N_{j-p} .. N_j` are polynomials and all
+//! others vanish. The span is found in f64, the polynomials are evaluated in any [`Scalar`] and may be
+//! continued beyond their span, which gives one-sided derivatives at a multiple knot and enclosures over
+//! intervals of the argument.
 
 use crate::{Error, Scalar};
 
@@ -44,8 +47,8 @@ impl Knots {
     /// Checks and keeps a knot vector.
     ///
     /// # Errors
-    /// [`Error::Knots`] unless the degree is at least 1, there are at least 2(p+1) knots, all finite and non-decreasing, the
-    /// first and last p+1 coincide and no interior knot occurs more than p times.
+    /// [`Error::Knots`] unless the degree is at least 1, there are at least 2(p+1) knots, all finite and
+    /// non-decreasing, the first and last p+1 coincide and no interior knot occurs more than p times.
     pub fn new(degree: usize, values: Vec<f64>) -> Result<Self, Error> {
         let refuse = |index: usize, reason| {
             let value = values.get(index).copied().unwrap_or(f64::NAN);
@@ -70,7 +73,8 @@ impl Knots {
         if values[last - degree] != values[last] {
             return refuse(last - degree, "the last degree + 1 knots coincide");
         }
-        // degree + 1 equal knots in the interior would tear the spline apart; at the ends that is one too many
+        // degree + 1 equal knots in the interior would tear the spline apart; at the ends that is one too
+        // many
         if let Some(index) = (1..last - degree).find(|&i| values[i + degree] == values[i]) {
             return refuse(
                 index,
@@ -100,8 +104,8 @@ impl Knots {
         (self.values[0], self.values[self.values.len() - 1])
     }
 
-    /// The span that contains `x`: the one that begins at `x` if `x` is a knot, the last one at the end of the domain.
-    /// `None` outside of the domain and for NaN.
+    /// The span that contains `x`: the one that begins at `x` if `x` is a knot, the last one at the end of
+    /// the domain. `None` outside of the domain and for NaN.
     pub fn span(&self, x: f64) -> Option<usize> {
         let (start, end) = self.domain();
         if !(start <= x && x <= end) {
@@ -125,7 +129,8 @@ impl Knots {
 
     /// Values and two derivatives at `x` of the polynomials which the basis functions are on `span`.
     ///
-    /// `span` must come from [`Knots::span`], [`Knots::span_before`] or [`Knots::spans`]; then no divisor is zero.
+    /// `span` must come from [`Knots::span`], [`Knots::span_before`] or [`Knots::spans`]; then no divisor is
+    /// zero.
     pub fn basis<S: Scalar + Copy>(&self, span: usize, x: S) -> Basis<S> {
         debug_assert!(self.values[span] < self.values[span + 1], "span {span} is empty");
         let p = self.degree;
@@ -161,7 +166,8 @@ impl Knots {
         (S::exact(self.values[i]), S::exact(self.values[i + q]))
     }
 
-    /// From (derivatives of) the degree q-1 functions on the span to the next derivative of the degree q functions.
+    /// From (derivatives of) the degree q-1 functions on the span to the next derivative of the degree q
+    /// functions.
     fn raise<S: Scalar + Copy>(&self, span: usize, q: usize, below: &[S]) -> Vec<S> {
         let mut derivatives = vec![S::zero(); q + 1];
         for (k, &value) in below.iter().enumerate() {
@@ -306,7 +312,8 @@ mod tests {
 
     #[test]
     fn cubics_are_reproduced_by_their_polar_forms() {
-        // f(u) = u^3 - 2u^2 + 3 has the blossom u v w - 2 (uv + vw + wu)/3 + 3; coefficient i is its value at the knots inside
+        // f(u) = u^3 - 2u^2 + 3 has the blossom u v w - 2 (uv + vw + wu)/3 + 3; coefficient i is its value at
+        // the knots inside
         let knots = kinked().knots().clone();
         let blossom = |u: f64, v: f64, w: f64| u * v * w - 2.0 * (u * v + v * w + w * u) / 3.0 + 3.0;
         let coefficients = (0..knots.dimension())

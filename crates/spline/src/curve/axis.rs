@@ -1,18 +1,19 @@
 //! One parameter direction of a curve or grid.
 
-use super::rule::{Rows, lattice};
-use super::{Basis, Ends, Tension};
+use super::rule::{Rows, shift};
+use super::{Basis, Ends, MAX_ORDER, Tension};
 use crate::Error;
-use crate::families::MAX_ORDER;
 
-/// The most numbers that a polygon or grid may hold, 1 GiB: refinement beyond that is refused and not attempted.
+/// The most numbers that a polygon or grid may hold, 1 GiB: refinement beyond that is refused and not
+/// attempted.
 const MAX_NUMBERS: usize = 1 << 27;
 
-/// A combination of control points: their indices and weights. A closed polygon of fewer points than its order names some
-/// more than once.
+/// A combination of control points: their indices and weights. A closed polygon of fewer points than its
+/// order names some more than once.
 pub type Weights = Vec<(usize, f64)>;
 
-/// Order, tension, ends and number of points, at one level of refinement; the control points themselves are elsewhere.
+/// Order, tension, ends and number of points, at one level of refinement; the control points themselves are
+/// elsewhere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     basis: Basis,
@@ -26,8 +27,9 @@ impl Axis {
     /// The direction of `count` control points of order `order` with initial tension `u0`.
     ///
     /// # Errors
-    /// [`Error::Order`] unless `3 <= order <= MAX_ORDER`, [`Error::Tension`] unless u0 is finite and above -1,
-    /// [`Error::ControlPoints`] for fewer than `order` points with open ends or fewer than 3 in a closed polygon.
+    /// [`Error::Order`] unless `3 <= order <= MAX_ORDER`, [`Error::Tension`] unless u0 is finite and above
+    /// -1, [`Error::ControlPoints`] for fewer than `order` points with open ends or fewer than 3 in a closed
+    /// polygon.
     pub fn new(order: usize, u0: f64, ends: Ends, count: usize) -> Result<Self, Error> {
         if !(3..=MAX_ORDER).contains(&order) {
             return Err(Error::Order {
@@ -93,8 +95,7 @@ impl Axis {
 
     /// The parameter of point i: the peak of its influence.
     pub fn parameter(&self, i: usize) -> f64 {
-        let shift = f64::from(lattice(self.order()).parity()) / 2.0;
-        (self.first as f64 + i as f64 + shift) * self.step()
+        (self.first as f64 + i as f64 + shift(self.order())) * self.step()
     }
 
     /// The number of intervals between knots on which there is a curve.
@@ -105,7 +106,8 @@ impl Axis {
         }
     }
 
-    /// The parameters on which there is a curve; a closed one continues periodically. The same at every level.
+    /// The parameters on which there is a curve; a closed one continues periodically. The same at every
+    /// level.
     pub fn domain(&self) -> (f64, f64) {
         let start = self.start();
         (
@@ -157,8 +159,8 @@ impl Axis {
         self.active(interval).zip(values.iter().copied()).collect()
     }
 
-    /// The weights at `per_interval` equally spaced parameters of each interval, and at the end of the domain: (parameter,
-    /// weights). The basis is evaluated `per_interval + 1` times only.
+    /// The weights at `per_interval` equally spaced parameters of each interval, and at the end of the
+    /// domain: (parameter, weights). The basis is evaluated `per_interval + 1` times only.
     ///
     /// # Errors
     /// [`Error::ControlPoints`] if there would be too many samples.
@@ -179,7 +181,8 @@ impl Axis {
             .collect())
     }
 
-    /// One level of refinement of `count` rows of `width` numbers each, which lie one after the other in `values`.
+    /// One level of refinement of `count` rows of `width` numbers each, which lie one after the other in
+    /// `values`.
     ///
     /// # Errors
     /// [`Error::ControlPoints`] if there would be too many numbers.

@@ -1,22 +1,26 @@
 //! The basis of the limit curves.
 //!
-//! One level multiplies the generating function of the points by `(1+z)^(k-2) (1 + 2 u z + z^2) / (2^(k-2) (1+u))`. Over all
-//! levels each factor `(1+z)/2` becomes the box function of width 1, and the last factor, since `u_l` halves its angle, the
-//! generalised hat of unit area
+//! One level multiplies the generating function of the points by
+//! `(1+z)^(k-2) (1 + 2 u z + z^2) / (2^(k-2) (1+u))`. Over all levels each factor `(1+z)/2` becomes the box
+//! function of width 1, and the last factor, since `u_l` halves its angle, the generalised hat of unit area
 //!
 //! ```text
 //! H(y) = w sin(w (1-|y|)) / (2 (1 - cos w)),   1 - |y|,   w sinh(w (1-|y|)) / (2 (cosh w - 1)),    |y| <= 1
 //! ```
 //!
-//! for `u = cos(w/2), 1, cosh(w/2)`. The limit of a single 1 is their convolution, `B_k = H * N_{k-2}`, where `N_{k-2}` is the
-//! uniform polynomial B-spline of k-2 intervals: **the basis of order k is the polynomial one of order k-2, averaged over H**.
-//! It is even, has support `[-k/2, k/2]` and k-2 continuous derivatives, and its shifts sum to one. For `u >= 0` it is positive.
+//! for `u = cos(w/2), 1, cosh(w/2)`. The limit of a single 1 is their convolution, `B_k = H * N_{k-2}`, where
+//! `N_{k-2}` is the uniform polynomial B-spline of k-2 intervals: **the basis of order k is the polynomial
+//! one of order k-2, averaged over H**. It is even, has support `[-k/2, k/2]` and k-2 continuous derivatives,
+//! and its shifts sum to one. For `u >= 0` it is positive.
 //!
-//! The average is taken by Gauss-Legendre quadrature between the knots. The integrand there is a polynomial of degree k-3 times
-//! an exponential function of a range of at most `2 pi` ([`ARC`]), so that the rule's error is below rounding ([`Basis::new`]).
-//! All terms have one sign for `u >= 0`; nothing cancels for any u near 1, where closed forms by powers and sines would.
+//! The average is taken by Gauss-Legendre quadrature between the knots. The integrand there is a polynomial
+//! of degree k-3 times an exponential function of a range of at most `2 pi` ([`ARC`]), so that the rule's
+//! error is below rounding ([`Basis::new`]). All terms have one sign for `u >= 0`; nothing cancels for any u
+//! near 1, where closed forms by powers and sines would.
 
 use super::{Angle, Tension};
+use crate::quadrature::{Node, gauss_legendre};
+use crate::uniform;
 
 /// The longest piece of quadrature, in units of `1/w`.
 const ARC: f64 = std::f64::consts::TAU;
@@ -29,15 +33,15 @@ const REACH: f64 = 48.0;
 pub struct Basis {
     order: usize,
     tension: Tension,
-    /// Gauss-Legendre nodes and weights on [0, 1].
-    rule: Vec<(f64, f64)>,
+    /// Quadrature on [0, 1].
+    rule: Vec<Node>,
 }
 
 impl Basis {
     /// The basis of an order of at least 3.
     ///
-    /// The n nodes are exact to degree `2n-1 >= k-3+24`. On a piece of length `2 pi/w` the best approximation of degree 24 to
-    /// `exp(i w y)` or `exp(w y)` has an error of about `2 (pi/2)^25 / 25! = 1e-20`.
+    /// The n nodes are exact to degree `2n-1 >= k-3+24`. On a piece of length `2 pi/w` the best approximation
+    /// of degree 24 to `exp(i w y)` or `exp(w y)` has an error of about `2 (pi/2)^25 / 25! = 1e-20`.
     pub(super) fn new(order: usize, tension: Tension) -> Self {
         Basis {
             order,
@@ -64,24 +68,28 @@ impl Basis {
         self.tension
     }
 
-    /// The k functions that do not vanish between two knots, at the fraction `0 <= f <= 1` of the way: the weights of k
-    /// consecutive points in the limit point there.
+    /// The k functions that do not vanish between two knots, at the fraction `0 <= f <= 1` of the way: the
+    /// weights of k consecutive points in the limit point there.
     pub(super) fn values(&self, f: f64) -> Vec<f64> {
         let mut values = vec![0.0; self.order];
         for (y, weight) in self.average(f) {
-            // the place f - y lies in the interval before (its functions are the first k-2), in this one, or in the next
+            // the place f - y lies in the interval before (its functions are the first k-2), in this one, or
+            // in the next
             let interval = (f - y).floor().clamp(-1.0, 1.0);
             let offset = (interval + 1.0) as usize;
             let fraction = f - y - interval;
-            for (sum, value) in values[offset..].iter_mut().zip(polynomial(self.order - 2, fraction)) {
+            for (sum, value) in values[offset..]
+                .iter_mut()
+                .zip(uniform::values(self.order - 3, fraction))
+            {
                 *sum += weight * value;
             }
         }
         values
     }
 
-    /// The limit point at a control point's own parameter as an average of it and its neighbours: the values at a knot for
-    /// even orders, half way between two for odd ones. An odd number of weights, symmetric.
+    /// The limit point at a control point's own parameter as an average of it and its neighbours: the values
+    /// at a knot for even orders, half way between two for odd ones. An odd number of weights, symmetric.
     pub fn mask(&self) -> Vec<f64> {
         if self.order.is_multiple_of(2) {
             let mut mask = self.values(0.0);
@@ -121,8 +129,8 @@ impl Basis {
                 let parts = (w * (to - from) / ARC).ceil().max(1.0);
                 let length = (to - from) / parts;
                 for part in 0..parts as usize {
-                    for &(x, weight) in &self.rule {
-                        let a = from + (part as f64 + x) * length;
+                    for &Node { at, weight } in &self.rule {
+                        let a = from + (part as f64 + at) * length;
                         nodes.push((side * a, weight * length * self.hat(a)));
                     }
                 }
@@ -147,45 +155,6 @@ impl Basis {
     }
 }
 
-/// The uniform polynomial B-splines of `order` that do not vanish on an interval, at a fraction of it (Cox 1972, de Boor
-/// 1972); the one that ends there comes first.
-fn polynomial(order: usize, fraction: f64) -> Vec<f64> {
-    let mut values = vec![1.0];
-    for degree in 1..order {
-        let inverse = 1.0 / degree as f64;
-        values.push(0.0);
-        for j in (0..=degree).rev() {
-            // the distances to both ends of the support
-            let rising = (fraction + (degree - j) as f64) * inverse;
-            let before = if j > 0 { values[j - 1] } else { 0.0 };
-            let falling = (1.0 - fraction + j as f64) * inverse;
-            values[j] = rising * before + falling * values[j];
-        }
-    }
-    values
-}
-
-/// Nodes and weights on [0, 1], by Newton's method on the Legendre polynomial from Tricomi's estimate.
-fn gauss_legendre(count: usize) -> Vec<(f64, f64)> {
-    let n = count as f64;
-    let nodes = (0..count).map(|i| {
-        let mut x = (std::f64::consts::PI * (i as f64 + 0.75) / (n + 0.5)).cos();
-        let mut slope = 1.0;
-        // quadratic convergence from an error of n^-4: four steps are enough, one more costs nothing
-        for _ in 0..6 {
-            let (mut previous, mut value) = (1.0, x);
-            for degree in 2..=count {
-                let d = degree as f64;
-                (previous, value) = (value, ((2.0 * d - 1.0) * x * value - (d - 1.0) * previous) / d);
-            }
-            slope = n * (previous - x * value) / (1.0 - x * x);
-            x -= value / slope;
-        }
-        ((1.0 - x) / 2.0, 1.0 / ((1.0 - x * x) * slope * slope))
-    });
-    nodes.collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -205,20 +174,6 @@ mod tests {
         1e6,
         1e300,
     ];
-
-    #[test]
-    fn quadrature_is_exact_for_its_degree() {
-        for count in [3, 13, 27] {
-            let rule = gauss_legendre(count);
-            for degree in 0..2 * count {
-                let sum: f64 = rule.iter().map(|(x, w)| w * x.powi(degree as i32)).sum();
-                assert!(
-                    (sum * (degree + 1) as f64 - 1.0).abs() < 1e-13,
-                    "{count} nodes, degree {degree}"
-                );
-            }
-        }
-    }
 
     #[test]
     fn functions_sum_to_one_and_are_positive() {

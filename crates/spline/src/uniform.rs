@@ -1,43 +1,45 @@
 //! Uniform B-splines on one knot interval, and their Bernstein form.
 //!
-//! On the interval `[0, 1]` between two knots a uniform spline of degree d is a combination of d+1 consecutive control
-//! values `c_0 .. c_d`. The basis follows from `N_0 = 1` by `d N_j^d(t) = (t + d - j) N_{j-1}^{d-1} + (j + 1 - t) N_j^{d-1}`
-//! with j = 0 for the basis function that ends first; derivatives are differences of lower degree. The Bernstein coefficient
-//! `b_i` is the blossom at `0^(d-i) 1^i` (Ramshaw 1989), an affine combination with rational weights.
+//! On the interval `[0, 1]` between two knots a uniform spline of degree d is a combination of d+1
+//! consecutive control values `c_0 .. c_d`. The basis follows from `N_0 = 1` by
+//! `d N_j^d(t) = (t + d - j) N_{j-1}^{d-1} + (j + 1 - t) N_j^{d-1}` with j = 0 for the basis function that
+//! ends first; derivatives are differences of lower degree. The Bernstein coefficient `b_i` is the blossom at
+//! `0^(d-i) 1^i` (Ramshaw 1989), an affine combination with rational weights.
 
-use eigenring_scheme::Scalar;
+use crate::Scalar;
 
-/// The values, first and second derivatives of the d+1 basis functions at `t` in `[0, 1]`: `[values, first, second]`, each
-/// in the order of the control values.
+/// The values, first and second derivatives of the d+1 basis functions at `t` in `[0, 1]`:
+/// `[values, first, second]`, each in the order of the control values.
 pub fn basis<S: Scalar + Copy>(degree: usize, t: S) -> [Vec<S>; 3] {
-    let values = values(degree, t);
     let first = match degree {
         0 => vec![S::zero(); 1],
-        _ => differences(&self::values(degree - 1, t)),
+        _ => differences(&values(degree - 1, t)),
     };
     let second = match degree {
         0 | 1 => vec![S::zero(); degree + 1],
-        _ => differences(&differences(&self::values(degree - 2, t))),
+        _ => differences(&differences(&values(degree - 2, t))),
     };
-    [values, first, second]
+    [values(degree, t), first, second]
 }
 
-fn values<S: Scalar + Copy>(degree: usize, t: S) -> Vec<S> {
-    let mut values = vec![S::one()];
+/// The values of the d+1 basis functions at `t`, without derivatives.
+pub fn values<S: Scalar + Copy>(degree: usize, t: S) -> Vec<S> {
+    let whole = |i: usize| S::ratio(i as i64, 1);
+    let mut values = Vec::with_capacity(degree + 1);
+    values.push(S::one());
     for d in 1..=degree {
-        let whole = |i: usize| S::ratio(i as i64, 1);
-        values = (0..=d)
-            .map(|j| {
-                let mut sum = S::zero();
-                if j > 0 {
-                    sum += (t + whole(d - j)) * values[j - 1];
-                }
-                if j < d {
-                    sum += (whole(j + 1) - t) * values[j];
-                }
-                sum / whole(d)
-            })
-            .collect();
+        values.push(S::zero());
+        // from the last function to the first, so that those of the lower degree are still there
+        for j in (0..=d).rev() {
+            let mut sum = S::zero();
+            if j > 0 {
+                sum += (t + whole(d - j)) * values[j - 1];
+            }
+            if j < d {
+                sum += (whole(j + 1) - t) * values[j];
+            }
+            values[j] = sum / whole(d);
+        }
     }
     values
 }
@@ -68,8 +70,8 @@ pub fn to_bernstein<S: Scalar + Copy>(degree: usize) -> Vec<Vec<S>> {
         .collect()
 }
 
-/// The blossom of the spline segment at `zeros` zeros and ones for the rest, by de Boor's recursion. Knots are the integers
-/// `1-d .. d`.
+/// The blossom of the spline segment at `zeros` zeros and ones for the rest, by de Boor's recursion. Knots
+/// are the integers `1-d .. d`.
 fn blossom<S: Scalar + Copy>(mut values: Vec<S>, zeros: usize) -> S {
     let degree = values.len() - 1;
     for round in 1..=degree {
@@ -87,7 +89,7 @@ fn blossom<S: Scalar + Copy>(mut values: Vec<S>, zeros: usize) -> S {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use eigenring_scheme::Dual;
+    use crate::Dual;
 
     #[test]
     fn bases_are_partitions_of_unity_with_exact_derivatives() {

@@ -6,8 +6,8 @@ use crate::Error;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tension(f64);
 
-/// What the tension says of the limit functions. `w` is the frequency per parameter step of this level's polygon:
-/// `u = cos(w/2)`, `u = 1` or `u = cosh(w/2)`.
+/// What the tension says of the limit functions. `w` is the frequency per parameter step of this level's
+/// polygon: `u = cos(w/2)`, `u = 1` or `u = cosh(w/2)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Angle {
     /// `-1 < u < 1`: cosine and sine of `w t`, `0 < w < 2 pi`.

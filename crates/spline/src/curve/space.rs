@@ -1,6 +1,7 @@
 //! Functions that a curve reproduces exactly.
 //!
-//! With `w = 2 arccos u` (`2 arcosh u` for `u > 1`) the limit curves of order k contain, besides piecewise ones,
+//! With `w = 2 arccos u` (`2 arcosh u` for `u > 1`) the limit curves of order k contain, besides piecewise
+//! ones,
 //!
 //! ```text
 //! -1 < u < 1    1, t, .., t^(k-3), cos w t, sin w t
@@ -8,14 +9,16 @@
 //! u > 1         1, t, .., t^(k-3), cosh w t, sinh w t
 //! ```
 //!
-//! and combining the basis with samples of such a function g at the control points' parameters is convolution with it (the
-//! conditions of Strang and Fix, 1973). So a function f of the space has control points `g(p_i)`, where g is of the space too:
+//! and combining the basis with samples of such a function g at the control points' parameters is convolution
+//! with it (the conditions of Strang and Fix, 1973). So a function f of the space has control points
+//! `g(p_i)`, where g is of the space too:
 //!
-//! * `e^(i w t)` is multiplied by the basis's Fourier transform at w, `u (sin(w/2) / (w/2))^(k-3)`, and is divided by it
-//!   (`sinh` for `u > 1`). At `u = 0` the factor is zero: there the points of both functions are alternating signs.
-//! * For polynomials the convolution is `f = sum over m of (-1)^m mu_m / m! g^(m)` with the moments mu of the basis: a
-//!   triangular system. The series of moments is that of the hat (by quadrature) times `(sinh(x/2) / (x/2))^(k-2)`; no term is
-//!   negative for `u >= 0`.
+//! * `e^(i w t)` is multiplied by the basis's Fourier transform at w, `u (sin(w/2) / (w/2))^(k-3)`, and is
+//!   divided by it (`sinh` for `u > 1`). At `u = 0` the factor is zero: there the points of both functions
+//!   are alternating signs.
+//! * For polynomials the convolution is `f = sum over m of (-1)^m mu_m / m! g^(m)` with the moments mu of the
+//!   basis: a triangular system. The series of moments is that of the hat (by quadrature) times
+//!   `(sinh(x/2) / (x/2))^(k-2)`; no term is negative for `u >= 0`.
 
 use super::{Angle, Axis, Basis, Curve, Ends, Tension};
 use crate::Error;
@@ -40,7 +43,8 @@ pub struct Space {
     tension: Tension,
 }
 
-/// How far a closed polygon's functions may be from periodic, relative to their values: the period is `w`, an arc cosine.
+/// How far a closed polygon's functions may be from periodic, relative to their values: the period is `w`, an
+/// arc cosine.
 const PERIODIC: f64 = 1e-12;
 
 impl Space {
@@ -171,7 +175,7 @@ impl Curve {
     /// The curve of `count` control points whose coordinates are given functions of the parameter, exactly.
     ///
     /// ```
-    /// use eigenring_scheme::curve::{Curve, Ends, Function};
+    /// use eigenring_spline::curve::{Curve, Ends, Function};
     /// // the unit circle from a hexagon
     /// let cosine = Function { cosine: 1.0, ..Function::default() };
     /// let sine = Function { sine: 1.0, ..Function::default() };
@@ -179,12 +183,13 @@ impl Curve {
     /// let circle = Curve::reproduce(4, u0, Ends::Closed, 6, &[cosine, sine])?;
     /// let point = circle.limit(0.123)?;
     /// assert!((point[0].hypot(point[1]) - 1.0).abs() < 1e-14);
-    /// # Ok::<(), eigenring_scheme::Error>(())
+    /// # Ok::<(), eigenring_spline::Error>(())
     /// ```
     ///
     /// # Errors
-    /// Those of [`Axis::new`]; [`Error::NotReproduced`] if a function is not of the [`Space`], or not periodic though the
-    /// curve is closed; [`Error::Dimension`] without functions; [`Error::NotFinite`] if control points overflow.
+    /// Those of [`Axis::new`]; [`Error::NotReproduced`] if a function is not of the [`Space`], or not
+    /// periodic though the curve is closed; [`Error::Dimension`] without functions; [`Error::NotFinite`] if
+    /// control points overflow.
     pub fn reproduce(order: usize, u0: f64, ends: Ends, count: usize, functions: &[Function]) -> Result<Curve, Error> {
         let axis = Axis::new(order, u0, ends, count)?;
         let space = Space::new(order, u0)?;
