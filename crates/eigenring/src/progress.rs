@@ -1,7 +1,37 @@
 //! Progress of long work: a bar on standard error, and only if that is a terminal.
 
+use eigenring_atlas::progress::{Progress, Task};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
+
+/// Bars and notes on standard error, for people; programs read standard output.
+#[derive(Clone, Copy, Debug)]
+pub struct Terminal;
+
+/// A bar that is taken off the screen when its work is done.
+struct Bar(ProgressBar);
+
+impl Progress for Terminal {
+    fn started<'a>(&'a self, what: &str, total: usize) -> Box<dyn Task + 'a> {
+        Box::new(Bar(bar(what, total)))
+    }
+
+    fn note(&self, text: &str) {
+        note(text);
+    }
+}
+
+impl Task for Bar {
+    fn advanced(&self) {
+        self.0.inc(1);
+    }
+}
+
+impl Drop for Bar {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+    }
+}
 
 /// A bar of `length` steps with a title; hidden unless standard error is a terminal.
 pub fn bar(title: &str, length: usize) -> ProgressBar {
@@ -17,7 +47,7 @@ pub fn bar(title: &str, length: usize) -> ProgressBar {
         .with_message(title.to_owned())
 }
 
-/// A remark on standard error, for people; programs read standard output.
+/// A remark on standard error.
 pub fn note(text: &str) {
     eprintln!("note: {text}");
 }

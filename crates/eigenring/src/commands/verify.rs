@@ -1,17 +1,18 @@
 //! `eigenring verify`: certificates.
 
 mod all;
-mod report;
 
 use crate::args::{self, Output, Valences};
 use crate::error::Error;
 use crate::files;
-use crate::progress::note;
-use crate::schemes::{SchemeArg, read_scheme};
+use crate::progress::{Terminal, note};
 use clap::{ArgGroup, Args, ValueEnum};
-use eigenring_certify::range::{Curve, Limits, RangeCertificate, prove_range, recheck_range_text};
-use eigenring_certify::{Certificate, Input, Requirement, Status, certify, recheck_text};
-use eigenring_scheme::Spec;
+use eigenring_atlas::certificates::{confirm, curve, input};
+use eigenring_atlas::progress::each;
+use eigenring_atlas::report;
+use eigenring_atlas::schemes::SchemeName;
+use eigenring_certify::range::{Limits, prove_range};
+use eigenring_certify::{Requirement, Status, certify};
 use eigenring_scheme::user::Reading;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -29,7 +30,7 @@ use std::process::ExitCode;
 pub struct Arguments {
     /// The scheme: see 'eigenring --help'; with --lambda-range its weights f2 and f3 are kept, by default those of the splines
     #[arg(long, value_name = "SPEC", group = "what", conflicts_with_all = ["recheck", "all"])]
-    scheme: Option<SchemeArg>,
+    scheme: Option<SchemeName>,
     /// Valence
     #[arg(short = 'N', long, value_name = "N", value_parser = args::valence, allow_negative_numbers = true, conflicts_with_all = ["recheck", "all"])]
     valence: Option<usize>,
@@ -114,9 +115,9 @@ impl Arguments {
             all::make(&self.valences.0, &self.out)?;
             return Ok(ExitCode::SUCCESS);
         }
-        let valence = self.valence.ok_or_else(|| Error::Usage {
-            message: "no valence is given".to_owned(),
-            accepted: format!("-N with 3 to {}", args::MAX_VALENCE),
+        let valence = self.valence.ok_or_else(|| {
+            let accepted = format!("-N with 3 to {}", args::MAX_VALENCE);
+            Error::usage("no valence is given", accepted)
         })?;
         match self.lambda_range {
             Some(lambda) => self.over_range(valence, lambda),
@@ -125,13 +126,16 @@ impl Arguments {
     }
 
     fn at_valence(&self, valence: usize) -> Result<ExitCode, Error> {
-        let scheme = self.scheme.as_ref().ok_or_else(|| Error::Usage {
-            message: "no scheme is given".to_owned(),
-            accepted: "--scheme SPEC".to_owned(),
-        })?;
+        let scheme = self.scheme.as_ref();
+        let scheme = scheme.ok_or_else(|| Error::usage("no scheme is given", "--scheme SPEC"))?;
         let reading = if self.exact { Reading::Exact } else { Reading::Balanced };
-        let input = input(scheme, valence, reading)?;
-        if scheme.scheme(valence)?.degree().is_some_and(|degree| degree >= LARGE) {
+        let tuner = args::tuner();
+        let input = input(scheme, valence, reading, &tuner)?;
+        if scheme
+            .scheme(valence, &tuner)?
+            .degree()
+            .is_some_and(|degree| degree >= LARGE)
+        {
             note("patches of high degree have large blocks: this may take minutes");
         }
         let certificate = certify(input, valence)?;
@@ -141,7 +145,7 @@ impl Arguments {
         let requirement = self.require.into();
         files::emit(
             None,
-            report::certificate(&certificate, requirement, self.format.format).as_bytes(),
+            report::certificate(&certificate, requirement, self.format.format()).as_bytes(),
         )?;
         if let Some(balanced) = certificate.balanced {
             note(&format!(
@@ -157,32 +161,10 @@ impl Arguments {
     }
 
     fn over_range(&self, valence: usize, lambda: [f64; 2]) -> Result<ExitCode, Error> {
-        let curve = match &self.scheme {
-            None
-            | Some(SchemeArg::Spec(
-                Spec::LambdaOptimal
-                | Spec::Lambda {
-                    weights: None, s: None, ..
-                },
-            )) => Curve::embedded(valence)?,
-            Some(SchemeArg::Spec(Spec::Lambda {
-                weights: Some((f2, f3)),
-                s: None,
-                ..
-            })) => Curve::Constant { f2: *f2, f3: *f3 },
-            Some(_) => {
-                return Err(Error::Usage {
-                    message: "a range of lambda is for the lambda-scheme with s by its rule".to_owned(),
-                    accepted: "lambda:optimal (its splines) or lambda:lambda=L,f2=X,f3=Y (constant f2, f3)".to_owned(),
-                });
-            }
-        };
+        let curve = curve(self.scheme.as_ref(), valence)?;
         let requirement: Requirement = self.require.into();
         if requirement == Requirement::Hull {
-            return Err(Error::Usage {
-                message: "hull is not checked over a range".to_owned(),
-                accepted: "c1, bounded, strict".to_owned(),
-            });
+            return Err(Error::usage("hull is not checked over a range", "c1, bounded, strict"));
         }
         let certificate = prove_range(valence, curve, lambda, Limits::default())?;
         if let Some(path) = &self.output {
@@ -190,7 +172,7 @@ impl Arguments {
         }
         files::emit(
             None,
-            report::range(&certificate, requirement, self.format.format).as_bytes(),
+            report::range(&certificate, requirement, self.format.format()).as_bytes(),
         )?;
         let proven = certificate
             .required(requirement)
@@ -211,120 +193,17 @@ impl Arguments {
             vec![path.to_owned()]
         };
         if paths.is_empty() {
-            return Err(Error::BadFile {
-                path: path.to_owned(),
-                message: "the folder holds no certificate".to_owned(),
-            });
+            let error = eigenring_atlas::Error::content("the folder holds no certificate");
+            return Err(error.in_file(path).into());
         }
-        let rows = all::on_all(&paths, "certificates", |path| confirm(path))?;
-        files::emit(None, report::rechecks(&rows, self.format.format).as_bytes())?;
+        let rows = each(&Terminal, "certificates", &paths, |path| {
+            confirm(path, args::MAX_VALENCE)
+        })?;
+        files::emit(None, report::rechecks(&rows, self.format.format()).as_bytes())?;
         Ok(exit(rows.iter().all(|row| row.confirmed)))
     }
 }
 
 fn exit(proven: bool) -> ExitCode {
     ExitCode::from(u8::from(!proven))
-}
-
-/// What checking one file again has shown.
-struct Confirmation {
-    path: PathBuf,
-    what: String,
-    valence: usize,
-    confirmed: bool,
-    remark: String,
-}
-
-fn confirm(path: &Path) -> Result<Confirmation, Error> {
-    let text = files::read(path)?;
-    let bad = |error: eigenring_certify::Error| Error::BadFile {
-        path: path.to_owned(),
-        message: error.to_string(),
-    };
-    // a certificate of a range has tiles, one of a scheme an input
-    let is_range = serde_json::from_str::<serde_json::Value>(&text).is_ok_and(|value| value.get("tiles").is_some());
-    let mut remarks = Vec::new();
-    // a valence in a file is no more to be trusted than one on the command line: work grows with it
-    let accepted = |valence: usize| match valence {
-        ..=args::MAX_VALENCE => Ok(()),
-        _ => Err(Error::BadFile {
-            path: path.to_owned(),
-            message: format!(
-                "valence {valence} is out of range: accepted is 3 to {}",
-                args::MAX_VALENCE
-            ),
-        }),
-    };
-    let (what, valence, intact) = if is_range {
-        accepted(RangeCertificate::from_json(&text).map_err(bad)?.valence)?;
-        let (certificate, found) = recheck_range_text(&text).map_err(bad)?;
-        if !found.covered {
-            remarks.push("the tiles do not cover the range".to_owned());
-        }
-        let different = found.differences.iter().map(|(group, [start, end])| {
-            let names: Vec<&str> = group.statements().iter().map(|statement| statement.name()).collect();
-            let names = names.join(", ");
-            format!("{names} on {start}..{end}: not as claimed")
-        });
-        remarks.extend(different);
-        let [start, end] = certificate.lambda;
-        (format!("lambda {start}..{end}"), certificate.valence, found.intact)
-    } else {
-        accepted(Certificate::from_json(&text).map_err(bad)?.valence)?;
-        let (certificate, found) = recheck_text(&text).map_err(bad)?;
-        let word = |status: Option<Status>| status.map_or("absent".to_owned(), |status| status.to_string());
-        let different = found.differences.iter().map(|d| match (d.claimed, d.found) {
-            (None, None) => format!("{}: {}", d.name, d.what),
-            (claimed, found) => format!(
-                "{} ({}): claimed {}, found {}",
-                d.name,
-                d.what,
-                word(claimed),
-                word(found)
-            ),
-        });
-        remarks.extend(different);
-        (certificate.input.origin(), certificate.valence, found.intact)
-    };
-    if !intact {
-        remarks.insert(0, "changed after it was written: the digest differs".to_owned());
-    }
-    Ok(Confirmation {
-        path: path.to_owned(),
-        what,
-        valence,
-        confirmed: remarks.is_empty(),
-        remark: remarks.join("; "),
-    })
-}
-
-/// What is certified of a scheme on the command line: its text or its parameters, exactly as given.
-fn input(scheme: &SchemeArg, valence: usize, reading: Reading) -> Result<Input, Error> {
-    match scheme {
-        SchemeArg::File(path) => {
-            // read as a scheme first, so that mistakes are reported with the file's name
-            read_scheme(path, reading)?.exact(valence)?;
-            let name = path
-                .file_stem()
-                .map_or("scheme".into(), |stem| stem.to_string_lossy().into_owned());
-            Ok(Input::Toml {
-                text: files::read(path)?,
-                name,
-                reading,
-            })
-        }
-        SchemeArg::Spec(spec) => match scheme.lambda_point(valence)? {
-            Some(point) => {
-                let given = matches!(spec, Spec::Lambda { weights: Some(_), .. });
-                Ok(Input::Lambda {
-                    lambda: point.plane.lambda,
-                    s: point.plane.s,
-                    f2: point.f2,
-                    // at valence 4 f3 is mu; a tabulated or tuned double can only come near
-                    f3: (valence != 4 || given).then_some(point.f3),
-                })
-            }
-            None => Ok(Input::from_spec(spec, valence)?),
-        },
-    }
 }
