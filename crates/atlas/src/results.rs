@@ -134,13 +134,7 @@ fn command(parameters: &Parameters) -> String {
 
 /// The table to be embedded.
 pub fn table(studies: &[Study], parameters: &Parameters) -> Result<LambdaTable, eigenring_scheme::Error> {
-    let entries = studies
-        .iter()
-        .map(|study| {
-            let lambda_r2 = study.featured("lambda_r2").map_or(parameters.range[1], |f| f.lambda);
-            study.entry(parameters.phi, lambda_r2)
-        })
-        .collect();
+    let entries = studies.iter().map(|study| parameters.entry(study)).collect();
     LambdaTable::new(tool(), command(parameters) + " --embed", entries)
 }
 

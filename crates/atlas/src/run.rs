@@ -6,7 +6,7 @@
 use crate::error::Error;
 use crate::progress::{Progress, each};
 use crate::table::short;
-use eigenring_scheme::lambda::{Bounds, Relaxation};
+use eigenring_scheme::lambda::{Bounds, Entry, Relaxation};
 use eigenring_tune::global::{Global, global};
 use eigenring_tune::objective::{Normalisation, Settings};
 use eigenring_tune::search::Starts;
@@ -112,6 +112,12 @@ impl Parameters {
             above: self.steps[1],
         };
         (options, range)
+    }
+
+    /// The splines and featured values of a study of this run. Where no end of the recommended region was found, it is that of the range.
+    pub fn entry(&self, study: &Study) -> Entry {
+        let lambda_r2 = study.featured("lambda_r2").map_or(self.range[1], |f| f.lambda);
+        study.entry(self.phi, lambda_r2)
     }
 
     /// What the samples depend on, on one line: the parameters but those that come later, and the tool's version.

@@ -1,8 +1,19 @@
 //! Progress of long work: a bar on standard error, and only if that is a terminal.
 
 use eigenring_atlas::progress::{Progress, Task};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
+use std::sync::LazyLock;
+
+/// All bars on the screen: work that is started within work has a line of its own. Hidden unless standard error is a terminal.
+static BARS: LazyLock<MultiProgress> = LazyLock::new(|| {
+    let target = if std::io::stderr().is_terminal() {
+        ProgressDrawTarget::stderr()
+    } else {
+        ProgressDrawTarget::hidden()
+    };
+    MultiProgress::with_draw_target(target)
+});
 
 /// Bars and notes on standard error, for people; programs read standard output.
 #[derive(Clone, Copy, Debug)]
@@ -33,21 +44,15 @@ impl Drop for Bar {
     }
 }
 
-/// A bar of `length` steps with a title; hidden unless standard error is a terminal.
+/// A bar of `length` steps with a title.
 pub fn bar(title: &str, length: usize) -> ProgressBar {
-    let target = if std::io::stderr().is_terminal() {
-        ProgressDrawTarget::stderr()
-    } else {
-        ProgressDrawTarget::hidden()
-    };
     let style = ProgressStyle::with_template("{msg:22} [{bar:40}] {pos}/{len}  {elapsed} elapsed, {eta} left")
         .unwrap_or_else(|_| ProgressStyle::default_bar());
-    ProgressBar::with_draw_target(Some(length as u64), target)
-        .with_style(style)
-        .with_message(title.to_owned())
+    let bar = BARS.add(ProgressBar::new(length as u64));
+    bar.with_style(style).with_message(title.to_owned())
 }
 
-/// A remark on standard error.
+/// A remark on standard error, above the bars.
 pub fn note(text: &str) {
-    eprintln!("note: {text}");
+    BARS.suspend(|| eprintln!("note: {text}"));
 }

@@ -265,7 +265,7 @@ mod tests {
         assert_eq!((rows[1].to, rows[1].status.as_str()), (0.35, "refuted"));
         assert!(matches!(
             stored("valence,range\nx,tabulated\n"),
-            Err(Error::BadFile { .. })
+            Err(Error::InFile { .. })
         ));
     }
 

@@ -135,10 +135,10 @@ pub fn chart(inputs: &Inputs<'_>) -> Result<(Chart, Table), Error> {
         chart = chart.series(points, style).label(*name);
     }
     let constants = [
-        ("$λ_M^*$ = 0.5", LAMBDA_M, Dash::Solid),
-        ("$λ_A^*$ = 0.39", LAMBDA_A, Dash::Dashed),
-        ("$λ_{r1}$ = 0.2", LAMBDA_R1, Dash::DashDot),
-        ("1/8", LAMBDA_C1, Dash::Dotted),
+        (format!("$λ_M^*$ = {LAMBDA_M}"), LAMBDA_M, Dash::Solid),
+        (format!("$λ_A^*$ = {LAMBDA_A}"), LAMBDA_A, Dash::Dashed),
+        (format!("$λ_{{r1}}$ = {LAMBDA_R1}"), LAMBDA_R1, Dash::DashDot),
+        ("1/8".to_owned(), LAMBDA_C1, Dash::Dotted),
     ];
     for (name, value, dash) in constants {
         let stroke = Stroke {

@@ -79,10 +79,7 @@ impl Studies {
     /// The splines and featured values of a valence: stored ones, else the embedded ones; `None` where there are neither.
     pub fn entry(&self, valence: usize) -> Result<Option<Entry>, Error> {
         if let Some(study) = self.by_valence.get(&valence) {
-            let end = study
-                .featured("lambda_r2")
-                .map_or(self.parameters.range[1], |f| f.lambda);
-            return Ok(Some(study.entry(self.parameters.phi, end)));
+            return Ok(Some(self.parameters.entry(study)));
         }
         Ok(LambdaTable::embedded()?.entry(valence).ok().cloned())
     }

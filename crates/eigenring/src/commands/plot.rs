@@ -6,7 +6,7 @@ use crate::files;
 use crate::progress::{Terminal, note};
 use clap::{Args, ValueEnum};
 use eigenring_atlas::figures::{self, Drawing, Entry, FIGURES, Inputs, Studies};
-use eigenring_atlas::progress::each;
+use eigenring_atlas::progress::{Silent, each};
 use eigenring_atlas::results::{EVERYTHING, FOLDER};
 use eigenring_atlas::schemes::{SchemeList, SchemeName, Tuner};
 use eigenring_atlas::table::Format;
@@ -270,7 +270,8 @@ impl Arguments {
             tuner,
         };
         let drawings = (entry.build)(&inputs)?;
-        Ok(each(&Terminal, entry.name, &drawings, |drawing| self.files(drawing))?.concat())
+        // the bar counts figures
+        Ok(each(&Silent, entry.name, &drawings, |drawing| self.files(drawing))?.concat())
     }
 
     fn files(&self, drawing: &Drawing) -> Result<Vec<(String, Vec<u8>)>, Error> {
