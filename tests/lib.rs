@@ -3,6 +3,8 @@
 //! The cases under `data/` were computed once by an independent implementation in another language; they are facts to be
 //! met, never inputs of the program.
 
+pub mod oracle;
+
 use eigenring_scheme::Complex;
 use eigenring_spectral::Spectrum;
 use serde::Deserialize;

@@ -120,8 +120,14 @@ fn check_subject(subject: &Subject, evidence: &Evidence) -> Result<Vec<Check>, E
 type Patches = Result<(Annulus, Vec<Block>), Vec<Check>>;
 
 fn patches(subject: &Subject) -> Result<Patches, Error> {
-    if subject.scheme.degree().is_some() {
-        return Ok(Ok(spectral::problem(&subject.scheme)?));
+    match subject.scheme.degree() {
+        Some(2..) => return Ok(Ok(spectral::problem(&subject.scheme)?)),
+        Some(_) => {
+            let reason = "patches of degree 1 have kinks between them: the regular surface is not C1";
+            let (row_sums, hull) = (rows::row_sums(subject)?, rows::hull(subject)?);
+            return Ok(Err(without_patches(subject, row_sums, hull, reason)));
+        }
+        None => {}
     }
     let mask = subject.scheme.regular_mask().map(|mask| {
         let weights: Vec<String> = mask.values().map(|weight| format!("{}", weight.mid())).collect();
@@ -180,6 +186,9 @@ impl<'a> Proof<'a> {
             });
         }
         let spectrum = Spectrum::new(annulus, blocks, evidence);
+        if !subject.scheme.limit().is_rotation_symmetric() {
+            return Ok(Proof::of_different_sectors(subject, vec![row_sums, hull], &spectrum));
+        }
         let mut facts = Facts::new(subject);
         let dominant = conditions::dominant(&spectrum);
         let (subdominant, lambda) = conditions::subdominant(subject, &spectrum, &mut facts);
@@ -209,6 +218,31 @@ impl<'a> Proof<'a> {
         })
     }
 
+    /// The same for rules that differ from sector to sector: the statements about C1 alone.
+    fn of_different_sectors(subject: &'a Subject, mut checks: Vec<Check>, spectrum: &Spectrum) -> Self {
+        let (subdominant, pair) = conditions::distinct_pair(spectrum);
+        checks.extend([conditions::dominant(spectrum), subdominant]);
+        let least = pair.map(|[_, smaller]| smaller.value);
+        checks.extend(levels(subject, least));
+        let reason = match pair {
+            None => "no subdominant eigenvalues were proven",
+            Some(_) => "stated of a double subdominant eigenvalue, and there are two different ones",
+        };
+        for name in [Statement::BoundedCurvature, Statement::NonDegenerate, Statement::Strict] {
+            checks.push(Check::undecided(name, reason));
+        }
+        let vector = |entry: Subdominant| spectrum.points(&spectrum.entries[entry.position]);
+        let net = pair
+            .and_then(|[larger, smaller]| PlaneNet::whole(spectrum.annulus, [vector(larger)?, vector(smaller)?]).ok());
+        Proof {
+            subject,
+            checks,
+            lambda: pair.map(|[larger, _]| larger),
+            net,
+            heights: Vec::new(),
+        }
+    }
+
     fn finish(mut self, evidence: &Evidence) -> Vec<Check> {
         // where rows do not sum to 1 every statement has been spoken of
         if self.checks.iter().all(|check| check.name != Statement::Regular) {
@@ -223,10 +257,9 @@ impl<'a> Proof<'a> {
 
     fn map_checks(&self, evidence: &Evidence) -> Vec<Check> {
         let Some(net) = &self.net else {
-            let reason = match (&self.lambda, self.subject.scheme.degree()) {
-                (None, _) => "no subdominant eigenvalue was proven",
-                (Some(_), Some(1)) => "patches of degree 1 have kinks between them: the regular surface is not C1",
-                (Some(_), _) => "the characteristic map could not be enclosed",
+            let reason = match &self.lambda {
+                None => "no subdominant eigenvalue was proven",
+                Some(_) => "the characteristic map could not be enclosed",
             };
             return [
                 Statement::Regular,

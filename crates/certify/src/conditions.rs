@@ -195,6 +195,52 @@ pub fn subdominant(subject: &Subject, spectrum: &Spectrum, facts: &mut Facts) ->
     (check, Some(Subdominant { position, value }))
 }
 
+/// `subdominant` for rules that differ from sector to sector: two real positive eigenvalues, both simple, the second larger in
+/// modulus than all others, and both of them, if that was proven.
+///
+/// Where the two are equal, the one matrix that there is has them as a double eigenvalue, of which no enclosure can tell whether
+/// it is semisimple: undecided.
+pub fn distinct_pair(spectrum: &Spectrum) -> (Check, Option<[Subdominant; 2]>) {
+    const NAME: Statement = Statement::Subdominant;
+    let open = |text: String| (Check::undecided(NAME, text), None);
+    let mut order: Vec<usize> = (0..spectrum.entries.len()).collect();
+    let modulus = |position: usize| spectrum.entries[position].value.modulus();
+    order.sort_by(|&a, &b| modulus(b).mid().total_cmp(&modulus(a).mid()));
+    let &[first, second, ..] = order.as_slice() else {
+        return open("fewer than two eigenvalues were enclosed one by one".to_owned());
+    };
+    let pair = [first, second].map(|position| Subdominant {
+        position,
+        value: spectrum.entries[position].value.re,
+    });
+    let real = [first, second].map(|position| spectrum.entries[position].value.is_real());
+    if !(real[0] && real[1] && pair.iter().all(|entry| entry.value.certainly_positive())) {
+        return open("the two largest eigenvalues are not known to be real and positive".to_owned());
+    }
+    let [larger, smaller] = pair.map(|entry| entry.value);
+    if !smaller.certainly_lt(larger) {
+        return open(format!(
+            "the two largest eigenvalues, {larger} and {smaller}, are not known to differ: a double one may have a Jordan block"
+        ));
+    }
+    let others = spectrum.largest_other(&[first, second]);
+    let (other, _) = others.unwrap_or((Interval::point(0.0), 0));
+    if !other.certainly_lt(smaller) {
+        return open(format!(
+            "an eigenvalue has a modulus up to {}, the second one is {smaller}",
+            other.hi()
+        ));
+    }
+    let margin = (Interval::point(1.0) - other / smaller).lo();
+    let remark = format!(
+        "rules differ from sector to sector: a pair of different eigenvalues, {} and {}",
+        larger.mid(),
+        smaller.mid()
+    );
+    let check = Check::proven(NAME).margin(margin).enclosing(larger).remark(remark);
+    (check, Some(pair))
+}
+
 /// Equalities, decided exactly: whether `lambda^2` is an eigenvalue of a block.
 pub struct Facts<'a> {
     subject: &'a Subject,

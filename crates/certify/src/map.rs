@@ -16,7 +16,13 @@
 //!
 //! **What is taken for granted:** the values are those of a rotation-symmetric net, `P_(i+1) = R P_i` with `R` the rotation
 //! by `2 pi k / N` (an eigenvector of Fourier block k has this form), and, where `mirror` is set, of one symmetric under
-//! reflection in the x-axis, on which the first point of ring 1 lies (spoke 0, or the diagonal of sector 0 around a face). Enclosures that contradict these are refused. Only sector 0 is then examined.
+//! reflection in the x-axis, on which the first point of ring 1 lies (spoke 0, or the diagonal of sector 0 around a face). Enclosures that contradict these are refused. Only sector 0 is then examined. Nets without rotation symmetry
+//! ([`PlaneNet::whole`]) are examined in all sectors. Their two coordinates may belong to two eigenvalues `lambda_1 > lambda_2`: the
+//! map is then extended by `X(2 t) = X(t) / diag(lambda_1, lambda_2)`, and what is said below holds for it as well (Zorin
+//! 2000, *Smoothness of stationary subdivision on irregular meshes*, Constructive Approximation 16). Scaled by these
+//! powers, rings of almost all nets tend to affine images of the map, since every further eigenvalue is below lambda_2; the leading
+//! term of their normals is `(lambda_1 lambda_2)^m` times the Jacobian, and the quotient of the punctured plane by the scaling is a
+//! torus again.
 
 mod corner;
 pub mod find;
@@ -123,7 +129,8 @@ impl Place {
 #[derive(Clone, Debug)]
 pub struct PlaneNet<S> {
     annulus: Annulus,
-    fourier: usize,
+    /// The Fourier index; `None` for a net without rotation symmetry, of which all sectors are looked at.
+    fourier: Option<usize>,
     mirror: bool,
     x: Vec<S>,
     y: Vec<S>,
@@ -135,25 +142,16 @@ impl<S: Enclose> PlaneNet<S> {
     /// # Errors
     /// [`NetError`] where lengths, degree or index do not fit, or the values contradict the symmetry.
     pub fn new(annulus: Annulus, fourier: usize, mirror: bool, [x, y]: [Vec<S>; 2]) -> Result<Self, NetError> {
-        let expected = annulus.numbering.count();
-        for part in [&x, &y] {
-            if part.len() != expected {
-                return Err(NetError::Length {
-                    found: part.len(),
-                    expected,
-                });
-            }
-        }
-        if annulus.degree < 2 {
-            return Err(NetError::Degree { degree: annulus.degree });
-        }
+        let parts = [x, y];
+        check_size(&annulus, &parts)?;
+        let [x, y] = parts;
         let sectors = annulus.numbering.fan.sectors();
         if fourier >= sectors {
             return Err(NetError::Fourier { fourier, sectors });
         }
         let net = PlaneNet {
             annulus,
-            fourier,
+            fourier: Some(fourier),
             mirror,
             x,
             y,
@@ -161,6 +159,23 @@ impl<S: Enclose> PlaneNet<S> {
         let at = |index: usize| [net.x[index].enclosure(), net.y[index].enclosure()];
         check_symmetry(net.annulus.numbering, fourier, mirror.then_some([1, -1]), at)?;
         Ok(net)
+    }
+
+    /// A net without symmetry, over the numbering of the annulus: two coordinates of each point, of eigenvectors of two
+    /// eigenvalues that may differ.
+    ///
+    /// # Errors
+    /// [`NetError`] where lengths or degree do not fit.
+    pub fn whole(annulus: Annulus, parts: [Vec<S>; 2]) -> Result<Self, NetError> {
+        check_size(&annulus, &parts)?;
+        let [x, y] = parts;
+        Ok(PlaneNet {
+            annulus,
+            fourier: None,
+            mirror: false,
+            x,
+            y,
+        })
     }
 
     /// The net of the middles, in floating point: what a search looks at.
@@ -182,9 +197,14 @@ impl<S: Coefficient> PlaneNet<S> {
         &self.annulus
     }
 
-    /// The Fourier index.
-    pub fn fourier(&self) -> usize {
+    /// The Fourier index; `None` for a net without rotation symmetry.
+    pub fn fourier(&self) -> Option<usize> {
         self.fourier
+    }
+
+    /// The sectors that stand for all: the first under rotation, else every one.
+    pub(crate) fn representatives(&self) -> std::ops::Range<usize> {
+        0..if self.fourier.is_some() { 1 } else { self.sectors() }
     }
 
     /// The valence.
@@ -193,10 +213,10 @@ impl<S: Coefficient> PlaneNet<S> {
     }
 
     /// The patches that stand for all others under rotation, and under reflection where the net has it: those of sector 0,
-    /// of mirror images the one nearer to the own spoke.
+    /// of mirror images the one nearer to the own spoke. Without rotation symmetry those of all sectors.
     pub fn patches(&self) -> Vec<PatchIndex> {
-        self.annulus
-            .patches(0)
+        self.representatives()
+            .flat_map(|sector| self.annulus.patches(sector))
             .filter(|patch| !self.mirror || patch.p >= patch.q)
             .collect()
     }
@@ -229,6 +249,20 @@ impl<S: Coefficient> PlaneNet<S> {
         let [xu, xv, yu, yv] = [x.by_u(), x.by_v(), y.by_u(), y.by_v()].map(|f| f.scaled());
         xu.product(&yv).minus(&xv.product(&yu)).unscaled()
     }
+}
+
+fn check_size<S>(annulus: &Annulus, parts: &[Vec<S>; 2]) -> Result<(), NetError> {
+    let expected = annulus.numbering.count();
+    if let Some(part) = parts.iter().find(|part| part.len() != expected) {
+        return Err(NetError::Length {
+            found: part.len(),
+            expected,
+        });
+    }
+    if annulus.degree < 2 {
+        return Err(NetError::Degree { degree: annulus.degree });
+    }
+    Ok(())
 }
 
 /// Values that are each other's images must have enclosures that meet. `mirror` holds the signs of the two parts under

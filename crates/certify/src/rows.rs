@@ -102,9 +102,12 @@ fn row_sums_of(
             return Ok(Check::refuted(NAME, Witness::new(text).with("defect", by)).enclosing(by));
         }
         if defects.iter().all(Option::is_some) {
-            return Ok(Check::proven(NAME)
-                .enclosing(Interval::point(0.0))
-                .remark("in exact arithmetic"));
+            let remark = if subject.balance.rows > 0 {
+                "in exact arithmetic, of the balanced weights"
+            } else {
+                "in exact arithmetic"
+            };
+            return Ok(Check::proven(NAME).enclosing(Interval::point(0.0)).remark(remark));
         }
     }
     // rounded weights, or exact ones that do not fit: the defect is enclosed

@@ -116,6 +116,12 @@ impl Spectrum {
         moduli.chain(bounds).max_by(|a, b| a.0.hi().total_cmp(&b.0.hi()))
     }
 
+    /// The eigenvector of an entry of the undivided matrix: a value for each point of the numbering.
+    pub fn points(&self, entry: &Entry) -> Option<Vec<Interval>> {
+        let block = self.block(entry.index).filter(|block| block.place == Place::Points)?;
+        eigenvector(block, entry, entry.value.re)
+    }
+
     /// Whether an entry is certainly larger in modulus than everything else.
     pub fn leads(&self, entry: &Entry) -> bool {
         let position = self.entries.iter().position(|other| std::ptr::eq(other, entry));

@@ -184,13 +184,17 @@ fn members_of_the_lambda_scheme() {
 }
 
 #[test]
-fn an_outer_ring_that_shares_lambda_is_not_c1() {
+fn an_outer_ring_that_shares_lambda_is_left_open() {
     let place = Place::new();
     // order 3 at N = 3: lambda = 1/4 is an eigenvalue of the outer rings too, with a Jordan block
     let found = verify(&place, "--scheme tension:order=3 -N 3", 1);
-    let (text, data) = witness(&found, "subdominant");
-    assert!(text.contains("repeated"), "{text}");
-    encloses(&data["re"], 0.25, 0.0);
+    assert_eq!(found["status"], "undecided");
+    let checks = found["checks"].as_array().unwrap();
+    let subdominant = checks.iter().find(|check| check["name"] == "subdominant").unwrap();
+    assert!(
+        subdominant["reached"].as_str().unwrap().contains("repeated"),
+        "{subdominant}"
+    );
     assert_eq!(verify(&place, "--scheme tension:order=3 -N 4", 0)["status"], "proven");
 }
 
@@ -401,7 +405,7 @@ fn files_that_are_no_certificates_are_refused() {
         ("[1, 2]", "certificate"),
         ("{\"tiles\": {}, \"version\": 1}", "certificate"),
         (&good[..good.len() / 2], "certificate"),
-        (&good.replacen("\"version\": 1", "\"version\": 2", 1), "version 2"),
+        (&good.replacen("\"version\": 2", "\"version\": 1", 1), "version 1"),
         (&good.replacen("\"valence\": 5", "\"valence\": 2", 1), "3"),
         (
             &good.replacen("\"valence\": 5", "\"valence\": 4000000000", 1),

@@ -27,7 +27,6 @@ pub enum Error {
         /// The lambda it was given for.
         lambda: f64,
     },
-
     /// The rule for s asks for a mu that is not below lambda: what is out of range is the valence, and not an s that was given.
     #[error(
         "at N = {valence}, lambda = {lambda} the rule for s gives {s}, which is not below 1/lambda = {}: accepted is a smaller valence",
@@ -41,7 +40,6 @@ pub enum Error {
         /// What the rule gives.
         s: f64,
     },
-
     /// The lambda-scheme is tabulated for the s of its rule only.
     #[error(
         "with s = {s} no weights are tabulated at N = {valence}: accepted are f2 and f3 beside s, or s by its rule"
@@ -51,6 +49,56 @@ pub enum Error {
         valence: usize,
         /// The relaxation.
         s: f64,
+    },
+    /// A table counts its terms in 32 bits.
+    #[error("a table of {terms} terms: accepted are up to {maximum}")]
+    TableSize {
+        /// How many there would be.
+        terms: usize,
+        /// How many can be counted.
+        maximum: usize,
+    },
+    /// A table reads a point that is not there.
+    #[error("a table reads point {index} of {count}: accepted are as many points as it was made for")]
+    TablePoint {
+        /// The point's index.
+        index: usize,
+        /// How many points there are.
+        count: usize,
+    },
+    /// A fan has at least one sector.
+    #[error("{sectors} sectors: accepted are 1 to {maximum}")]
+    Sectors {
+        /// What was given.
+        sectors: usize,
+        /// The most that are accepted.
+        maximum: usize,
+    },
+    /// Knot intervals are given for each spoke.
+    #[error("{}: accepted are exactly {expected} finite numbers, none negative", intervals(*found, *bad))]
+    Intervals {
+        /// How many are given.
+        found: usize,
+        /// The number of spokes.
+        expected: usize,
+        /// The first that is not accepted: its spoke and its value.
+        bad: Option<(usize, f64)>,
+    },
+    /// Knot intervals by whose sum a rule divides.
+    #[error("the knot intervals of spokes {} and {} are both zero, and a rule divides by their sum: accepted is at most one of them", spokes[0], spokes[1])]
+    ZeroIntervals {
+        /// The spokes, from 0.
+        spokes: [usize; 2],
+    },
+    /// The scheme has no rules for this kind of corner.
+    #[error("{scheme} has no rules for this corner ({corner}): accepted are {accepted}")]
+    Unsupported {
+        /// The scheme.
+        scheme: String,
+        /// The corner.
+        corner: String,
+        /// What it has rules for.
+        accepted: String,
     },
     /// Passes that are no level of refinement.
     #[error("{}{fault}", pass.map_or(String::new(), |pass| format!("pass {}: ", pass + 1)))]
@@ -341,6 +389,13 @@ fn offsets(from: Lattice, to: Lattice) -> &'static str {
         (Lattice::Face, Lattice::Vertex) => {
             "with one class of taps odd offsets are accepted; with two, offsets 2, -2, 6, .. in the first and multiples of 4 in the second"
         }
+    }
+}
+
+fn intervals(found: usize, bad: Option<(usize, f64)>) -> String {
+    match bad {
+        Some((spoke, value)) => format!("knot interval {value} of spoke {spoke}"),
+        None => format!("{found} knot intervals"),
     }
 }
 

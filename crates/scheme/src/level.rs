@@ -1,6 +1,6 @@
 //! A level of refinement: passes in order, and the symmetry that they have.
 
-use crate::{Error, Fan, Lattice, Pass, RuleFault, Same, Scalar, Site, Stencil};
+use crate::{Error, Fan, Lattice, Line, Pass, RuleFault, Same, Scalar, Site, Stencil};
 use std::collections::BTreeMap;
 
 /// What the rules of a level have in common with their images under rotations and reflections.
@@ -277,8 +277,13 @@ impl<S: Scalar> Level<S> {
     }
 
     /// The mask of one level of refinement at regular points: the weight with which each refined point, at half steps from
-    /// twice the source's place, reads the source. `None` unless it is the same in all sectors and directions.
+    /// twice the source's place, reads the source. `None` unless it is the same in all sectors and directions and on both
+    /// sides of every spoke.
     pub fn regular_mask(&self) -> Option<BTreeMap<i32, S>> {
+        let uniform = |pass: &Pass<S>| pass.all_lines().all(Line::is_uniform);
+        if !self.fan.is_closed() || !self.passes.iter().all(uniform) {
+            return None;
+        }
         let sectors = self.passes.iter().filter_map(Pass::listed_sectors).max().unwrap_or(1);
         let mut masks = (0..sectors).flat_map(|sector| [0, 1].map(|axis| self.mask_of(sector, axis)));
         let first = masks.next()?;

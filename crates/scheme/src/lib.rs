@@ -5,12 +5,15 @@
 //! [`Net`]. Families are constructors in [`families`] and [`lambda`]; user schemes come from TOML through [`user`];
 //! [`Spec`] finds a scheme by name. All of it is generic over the [`Scalar`].
 
+mod corner;
 pub mod curve;
+mod definition;
 mod dual;
 mod error;
 mod exact;
 pub mod families;
 mod fourier;
+mod knots;
 pub mod lambda;
 mod level;
 mod line;
@@ -25,8 +28,11 @@ mod site;
 mod spec;
 mod spline;
 mod stencil;
+mod table;
 pub mod user;
 
+pub use corner::{Centre, Corner, MAX_SECTORS, Spoke};
+pub use definition::Definition;
 pub use dual::Dual;
 pub use error::{Error, RuleFault};
 pub use exact::{Exact, Parts};
@@ -45,6 +51,7 @@ pub use site::{Fan, Lattice, Numbering, Site};
 pub use spec::{Family, Spec, registry};
 pub use spline::{Basis, Knots, Spline};
 pub use stencil::Stencil;
+pub use table::{Table, Topology};
 
 /// The README's program is compiled and run as a test.
 #[cfg(doctest)]

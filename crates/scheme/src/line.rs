@@ -40,6 +40,11 @@ impl<W: Clone> Line<W> {
         self.classes.len() as i32
     }
 
+    /// Whether no target near the spoke has taps of its own.
+    pub fn is_uniform(&self) -> bool {
+        self.near.is_empty()
+    }
+
     /// The taps of each class.
     pub fn classes(&self) -> &[Taps<W>] {
         &self.classes

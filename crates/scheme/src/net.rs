@@ -5,7 +5,7 @@
 //! ([`PointNet`]), or a mere mark (is a special stencil involved?). Local matrix, Fourier blocks and refinement thus come
 //! from the same rules by construction.
 
-use crate::{Error, Level, Numbering, Scalar, Site, Stencil};
+use crate::{Error, Level, Numbering, Scalar, Site, Table};
 
 /// Where a level reads its control points, and how their values combine.
 ///
@@ -47,21 +47,17 @@ pub fn refine<S: Scalar, N: Net<S>>(level: &Level<S>, net: &N, targets: &[Site])
 pub struct Plan<S> {
     /// The control points that are read, one of each orbit.
     controls: Vec<Site>,
-    /// For each pass, the sums that it makes, one for each orbit.
-    passes: Vec<Vec<Sum<S>>>,
+    /// For each pass the sums that it makes, one for each orbit, of what the pass before has made.
+    passes: Vec<Pass<S>>,
     /// Where each target's orbit is among the sums of the last pass, and the target itself.
     targets: Vec<(usize, Site)>,
 }
 
-/// How a pass makes one point.
-type Sum<S> = Vec<Term<S>>;
-
+/// One pass: the table over orbits, and for each term the site that it reads, which says how its orbit's value is moved there.
 #[derive(Clone, Debug)]
-struct Term<S> {
-    /// The place of the source's orbit among what the pass before has made.
-    at: usize,
-    source: Site,
-    weight: S,
+struct Pass<S> {
+    table: Table<S>,
+    sites: Vec<Site>,
 }
 
 impl<S: Scalar> Plan<S> {
@@ -94,16 +90,13 @@ impl<S: Scalar> Plan<S> {
                 .map(|(source, _)| orbit(*source))
                 .collect();
             distinct(&mut needed);
-            let sum = |stencil: &Stencil<S>| -> Sum<S> {
+            let (mut table, mut sites) = (Table::default(), Vec::new());
+            for stencil in &stencils {
                 let terms = stencil.terms().iter();
-                let term = |(source, weight): &(Site, S)| Term {
-                    at: place(&needed, *source),
-                    source: *source,
-                    weight: weight.clone(),
-                };
-                terms.map(term).collect()
-            };
-            passes.push(stencils.iter().map(sum).collect());
+                table.push(terms.map(|(source, weight)| (place(&needed, *source) as u32, weight.clone())))?;
+                sites.extend(stencil.terms().iter().map(|(source, _)| *source));
+            }
+            passes.push(Pass { table, sites });
         }
         passes.reverse();
         Ok(Plan {
@@ -123,10 +116,11 @@ impl<S: Scalar> Plan<S> {
         let controls = self.controls.iter().map(|&site| net.control(site));
         let mut values = controls.collect::<Result<Vec<_>, Error>>()?;
         for pass in &self.passes {
-            let made = pass.iter().map(|terms| {
+            let made = (0..pass.table.rows()).map(|row| {
                 let mut sum = net.zero();
-                for term in terms {
-                    net.accumulate(&mut sum, &term.weight, &values[term.at], term.source);
+                let sites = &pass.sites[pass.table.range(row)];
+                for ((at, weight), &site) in pass.table.row(row).zip(sites) {
+                    net.accumulate(&mut sum, weight, &values[at], site);
                 }
                 sum
             });

@@ -26,7 +26,7 @@ pub const EQUAL: f64 = 1e-7;
 /// rounding of the whole: a hundred times the error of a well-conditioned eigenvalue.
 pub const MERGED: f64 = 1e-12;
 
-/// A singular value below this times the largest is zero. Empirical: rounding leaves 1e-16 to 1e-14, and two eigenvalues that
+/// A singular value of `S - value` below this times the largest, or times the value, is zero. Empirical: rounding leaves 1e-16 to 1e-14, and two eigenvalues that
 /// are told apart by [`EQUAL`] leave more than 1e-9.
 pub const NULL: f64 = 1e-11;
 
@@ -91,8 +91,8 @@ impl Block<f64> {
     /// [`Error::Decomposition`] as above.
     pub fn nullity(&self, value: Complex<f64>) -> Result<usize, Error> {
         match self.shifted(value) {
-            Shifted::Real(matrix) => nullity(matrix),
-            Shifted::Complex(matrix) => nullity(matrix),
+            Shifted::Real(matrix) => nullity(matrix, value),
+            Shifted::Complex(matrix) => nullity(matrix, value),
         }
     }
 
@@ -200,8 +200,9 @@ fn clusters(values: Vec<Complex<f64>>, radius: f64) -> Vec<BlockEigenvalue> {
         .collect()
 }
 
-/// How many of the falling singular values are not zero.
-fn rank(singular: &[f64]) -> Result<usize, Error> {
+/// How many of the falling singular values of `S - value` are not zero: measured by the largest of them, and by the value,
+/// of which rounding leaves a trace where the block is a multiple of the identity.
+fn rank(singular: &[f64], value: Complex<f64>) -> Result<usize, Error> {
     let largest = singular.first().copied().unwrap_or(0.0);
     if !largest.is_finite() {
         return Err(Error::Decomposition {
@@ -209,18 +210,17 @@ fn rank(singular: &[f64]) -> Result<usize, Error> {
             largest,
         });
     }
-    // S - value = 0 only if the block is a multiple of the identity: then every vector is an eigenvector
-    let regular = singular.iter().filter(|&&s| s > NULL * largest && largest > 0.0);
-    Ok(regular.count())
+    let scale = largest.max(value.0.hypot(value.1));
+    Ok(singular.iter().filter(|&&s| s > NULL * scale).count())
 }
 
-fn nullity<T: ComplexField<Real = f64>>(shifted: Mat<T>) -> Result<usize, Error> {
+fn nullity<T: ComplexField<Real = f64>>(shifted: Mat<T>, value: Complex<f64>) -> Result<usize, Error> {
     let size = shifted.nrows();
     let singular = shifted.singular_values().map_err(|_| Error::Decomposition {
         size,
         largest: f64::NAN,
     })?;
-    Ok(size - rank(&singular)?)
+    Ok(size - rank(&singular, value)?)
 }
 
 fn eigenspace<T: ComplexField<Real = f64> + Copy>(
@@ -235,7 +235,7 @@ fn eigenspace<T: ComplexField<Real = f64> + Copy>(
         largest: f64::NAN,
     })?;
     let singular: Vec<f64> = (0..size).map(|i| pair(svd.S().column_vector()[i]).0).collect();
-    let rank = rank(&singular)?;
+    let rank = rank(&singular, value)?;
     if rank == size {
         return Err(Error::NotAnEigenvalue {
             value: value.0,

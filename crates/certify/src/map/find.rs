@@ -85,11 +85,11 @@ pub fn jacobian<S: Enclose>(net: &PlaneNet<S>, limits: Limits) -> JacobianEviden
     let patches = net.patches();
     let enclosures: Vec<Polynomial<Interval>> = net.jacobians().iter().map(|j| j.map(Enclose::enclosure)).collect();
     // the sign of the largest certain value at a corner of a patch
-    let mut reference = (0.0, true, place(patches[0], 0, [0.0; 2]));
+    let mut reference = (0.0, true, place(patches[0], patches[0].sector, [0.0; 2]));
     for (patch, jacobian) in patches.iter().zip(&enclosures) {
         for (value, at) in jacobian.corners().iter().zip(Square::WHOLE.corners()) {
             if value.mig() > reference.0 {
-                reference = (value.mig(), value.certainly_positive(), place(*patch, 0, at));
+                reference = (value.mig(), value.certainly_positive(), place(*patch, patch.sector, at));
             }
         }
     }
@@ -119,7 +119,7 @@ pub fn jacobian<S: Enclose>(net: &PlaneNet<S>, limits: Limits) -> JacobianEviden
                 for (value, at) in upper.corners().into_iter().zip(part.square.corners()) {
                     // ties in favour of a clear case: what is nearly zero is left for the rounding of the check
                     if value <= 0.0 && wrong.is_none_or(|(worst, _)| value < worst) {
-                        wrong = Some((value, place(*patch, 0, at)));
+                        wrong = Some((value, place(*patch, patch.sector, at)));
                     }
                 }
                 // a thousand roundings of slack, so that the check finds the same sign

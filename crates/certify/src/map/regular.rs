@@ -4,9 +4,10 @@
 //! positive, so is the Jacobian; if not, the coefficients on parts of the patch decide, which converge to its values.
 //! By rotation (and reflection) symmetry one sector (or half of it) stands for all.
 //!
-//! **Refuted** by two points of the annulus where the Jacobian has opposite signs, or one where it is exactly zero: it is
-//! continuous (d >= 2) on a connected set, so it vanishes somewhere. Where it takes both signs the map is not injective
-//! either: the degree of an injective map of the plane is constant and 1 or -1.
+//! **Refuted** by two points of the annulus where the Jacobian certainly has opposite signs: it is continuous (d >= 2) on a
+//! connected set, so it vanishes somewhere, and the map is not injective either, since the degree of an injective map of the plane is
+//! constant and 1 or -1. The normals of almost all surfaces then point to both sides (Peters and Reif 2008, section 5.2). A Jacobian that
+//! merely touches zero refutes nothing.
 
 use super::{Place, PlaneNet, Polynomial, Subdivision};
 use crate::{Enclose, Interval, Status};
@@ -23,7 +24,7 @@ pub enum JacobianEvidence {
         /// One tree for each patch.
         patches: Vec<Subdivision>,
     },
-    /// It is not positive at one place and not negative at the other.
+    /// It is negative at one place and positive at the other.
     Fold {
         /// The two places, in this order.
         places: [Place; 2],
@@ -128,7 +129,7 @@ fn fold<S: Enclose>(net: &PlaneNet<S>, places: [Place; 2]) -> Regularity {
     let [Some(first), Some(second)] = places.map(value) else {
         return Regularity::undecided(true);
     };
-    let opposite = first.hi() <= 0.0 && second.lo() >= 0.0;
+    let opposite = first.certainly_negative() && second.certainly_positive();
     Regularity {
         status: if opposite { Status::Refuted } else { Status::Undecided },
         positive: true,

@@ -44,13 +44,13 @@ pub struct Winding {
 pub(super) type Curve<S> = [Vec<S>; 2];
 
 /// The outer boundary of sector 0 in order: along the sides `u = 1` of the patches at the far end of the own spoke, then back
-/// along the sides `v = 1` of those at the far end of the next.
+/// along the sides `v = 1` of those at the far end of the next. Without rotation symmetry the boundaries of all sectors.
 pub(super) fn boundary<S: Enclose>(net: &PlaneNet<S>) -> Vec<Curve<S>> {
     let conversion = to_bernstein::<S>(net.annulus.degree);
     let last = 2 * net.annulus.inner - 1;
-    let curve = |p: usize, q: usize, side: usize| -> Curve<S> {
+    let curve = |sector: usize, p: usize, q: usize, side: usize| -> Curve<S> {
         let width = net.annulus.degree + 1;
-        let coordinates = net.coordinates(PatchIndex { sector: 0, p, q }, &conversion);
+        let coordinates = net.coordinates(PatchIndex { sector, p, q }, &conversion);
         coordinates.map(|f| {
             let c = f.coefficients();
             if side == 0 {
@@ -60,9 +60,12 @@ pub(super) fn boundary<S: Enclose>(net: &PlaneNet<S>) -> Vec<Curve<S>> {
             }
         })
     };
-    let up = (0..=last).map(|q| curve(last, q, 0));
-    let back = (0..=last).rev().map(|p| curve(p, last, 1));
-    up.chain(back).collect()
+    let of_sector = |sector: usize| {
+        let up = (0..=last).map(move |q| (sector, last, q, 0));
+        up.chain((0..=last).rev().map(move |p| (sector, p, last, 1)))
+    };
+    let all = net.representatives().flat_map(of_sector);
+    all.map(|(sector, p, q, side)| curve(sector, p, q, side)).collect()
 }
 
 pub(super) fn cut<S: Enclose>([x, y]: &Curve<S>) -> Vec<Curve<S>> {
@@ -87,7 +90,11 @@ fn half_planes<S: Enclose>([x, y]: &Curve<S>) -> [bool; 4] {
 /// Checks the claim.
 pub fn winding<S: Enclose>(net: &PlaneNet<S>, evidence: &WindingEvidence) -> Winding {
     let mut parts = 0;
-    let number = quarters(net, evidence, &mut parts).and_then(|c| total(c, net.fourier, net.sectors()));
+    let number = quarters(net, evidence, &mut parts).and_then(|c| match net.fourier {
+        Some(fourier) => total(c, fourier, net.sectors()),
+        // a closed curve turns by a whole number
+        None => total(c, 0, 1),
+    });
     let status = match number {
         Some(1 | -1) => Status::Proven,
         Some(_) => Status::Refuted,

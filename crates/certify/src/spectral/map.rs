@@ -1,7 +1,7 @@
 //! Eigenvectors on all rings, and the nets they are.
 
 use super::block::Divided;
-use super::{Block, Entry, Spectrum};
+use super::{Block, Entry, Place, Spectrum};
 use crate::Interval;
 use crate::linear::solve;
 use eigenring_scheme::{Complex, Numbering, Scalar, Site};
@@ -18,7 +18,7 @@ pub type Net = Vec<Complex<Interval>>;
 /// solution of `(value - S_dd) v_d = sum_e S_de v_e` over the components e before d. `value` may be a sharper enclosure of the
 /// entry's eigenvalue.
 pub fn modulo_constants(block: &Block, entry: &Entry, value: Interval) -> Option<Vec<Interval>> {
-    if !block.is_real() {
+    if block.place == Place::Parts {
         return None;
     }
     let reduced = on_kept(block, entry, value)?;

@@ -40,8 +40,9 @@ pub struct Arguments {
     /// What must be proven
     #[arg(long, value_enum, default_value_t)]
     require: Required,
-    /// Take the weights of a file as they are written: by default sums within 1e-12 of 1, and weights that a symmetry exchanges and
-    /// that differ by no more, are taken for rounded and balanced
+    /// Take the weights of a file as they are written: by default the special stencils' sums within 1e-12 of 1, and
+    /// weights that a reflection exchanges (at the centre also a rotation) and that differ by no more, are taken
+    /// for rounded and balanced
     #[arg(long, conflicts_with_all = ["recheck", "all", "lambda_range"])]
     exact: bool,
     /// Also store the certificate

@@ -46,13 +46,24 @@ pub fn tension<S: Scalar>(valence: usize, order: usize, u0: f64) -> Result<Schem
         0 => even(valence, order)?,
         _ => odd(valence, order)?,
     };
-    let level = |u: S| {
+    let level = |u: S| -> Level<S> {
         let values = Values::new(valence, u);
         names.map(|name| values.of(*name))
     };
-    let (mut leading, mut rough, mut u) = (Vec::new(), u0, S::exact(u0));
-    while rough != 1.0 && leading.len() < MAX_LEADING {
-        leading.push(level(u.clone()));
+    let mut tensions = tensions::<S>(u0);
+    let limit = tensions.pop().unwrap_or_else(S::one);
+    Ok(Scheme::new(
+        format!("tension:order={order},u0={u0}"),
+        tensions.into_iter().map(level).collect(),
+        level(limit),
+    ))
+}
+
+/// The tensions of all levels, the limit's, which is 1, last.
+pub(super) fn tensions<S: Scalar>(u0: f64) -> Vec<S> {
+    let (mut tensions, mut rough, mut u) = (Vec::new(), u0, S::exact(u0));
+    while rough != 1.0 && tensions.len() < MAX_LEADING {
+        tensions.push(u.clone());
         // the half-angle step has 1 as its attractive fixed point and reaches it, to rounding, in finitely many steps
         let next = ((1.0 + rough) / 2.0).sqrt();
         if next == rough {
@@ -60,16 +71,22 @@ pub fn tension<S: Scalar>(valence: usize, order: usize, u0: f64) -> Result<Schem
         }
         (rough, u) = (next, ((S::one() + u) / S::ratio(2, 1)).sqrt());
     }
-    Ok(Scheme::new(
-        format!("tension:order={order},u0={u0}"),
-        leading,
-        level(S::one()),
-    ))
+    tensions.push(S::one());
+    tensions
+}
+
+/// The weights of smoothing `step`, 0 for the one that knows the tension: side and middle of the line, then the centre's own
+/// weight, that of each edge neighbour and that of each face neighbour.
+pub(super) fn smoothing_names(step: usize, n: i64) -> [Name; 5] {
+    if step == 0 {
+        return [Name::Side, Name::Middle, Name::Own, Name::Edge, Name::Face];
+    }
+    [(1, 4), (1, 2), (n - 3, n), (2, n * n), (1, n * n)].map(|(p, q)| Name::Number(p, q))
 }
 
 /// The weights by name: the symmetry of a level over names holds for every tension.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Name {
+pub(super) enum Name {
     /// A number that does not depend on the tension.
     Number(i64, i64),
     /// `1 / (2 (1+u))`: the sides of the first smoothing, the far point of corner cutting.
@@ -95,17 +112,17 @@ impl Same for Name {
 }
 
 /// What the names stand for at a valence and a tension.
-struct Values<S> {
+pub(super) struct Values<S> {
     n: i64,
     u: S,
 }
 
 impl<S: Scalar> Values<S> {
-    fn new(valence: usize, u: S) -> Self {
+    pub(super) fn new(valence: usize, u: S) -> Self {
         Values { n: valence as i64, u }
     }
 
-    fn of(&self, name: Name) -> S {
+    pub(super) fn of(&self, name: Name) -> S {
         let int = |i: i64| S::ratio(i, 1);
         let (n, u, one) = (self.n, || self.u.clone(), S::one);
         let square = || (one() + u()) * (one() + u());
@@ -128,7 +145,8 @@ impl<S: Scalar> Values<S> {
 fn even(valence: usize, order: usize) -> Result<Level<Name>, Error> {
     let fan = Fan::Closed(valence);
     let (edge, face) = (Site { sector: 0, x: 2, y: 0 }, Site { sector: 0, x: 2, y: 2 });
-    let smoothing = |side: Name, middle: Name, own: Name, edge_weight: Name, face_weight: Name| {
+    let smoothing = |step: usize| {
+        let [side, middle, own, edge_weight, face_weight] = smoothing_names(step, valence as i64);
         let stencil = Stencil::new()
             .with(Site::CENTRE, own)
             .with_orbit(fan, edge, edge_weight)
@@ -136,14 +154,10 @@ fn even(valence: usize, order: usize) -> Result<Level<Name>, Error> {
         let line = Line::new(vec![vec![(-2, side), (0, middle), (2, side)]]);
         Pass::regular(Lattice::Vertex, Lattice::Vertex, line).with(Site::CENTRE, stencil)
     };
-    let n = valence as i64;
-    let with_tension = smoothing(Name::Side, Name::Middle, Name::Own, Name::Edge, Name::Face);
-    let [quarter, half, one] = [(1, 4), (1, 2), (1, 1)].map(|(p, q)| Name::Number(p, q));
-    let [own, edge_weight, face_weight] = [(n - 3, n), (2, n * n), (1, n * n)].map(|(p, q)| Name::Number(p, q));
-    let uniform = smoothing(quarter, half, own, edge_weight, face_weight);
+    let [half, one] = [(1, 2), (1, 1)].map(|(p, q)| Name::Number(p, q));
     let midpoints = Line::new(vec![vec![(0, one)], vec![(-2, half), (2, half)]]);
-    let mut passes = vec![Pass::regular(Lattice::Vertex, Lattice::Vertex, midpoints), with_tension];
-    passes.resize(order / 2, uniform);
+    let mut passes = vec![Pass::regular(Lattice::Vertex, Lattice::Vertex, midpoints)];
+    passes.extend((0..order / 2 - 1).map(smoothing));
     Level::new(fan, passes)
 }
 

@@ -1,7 +1,7 @@
 //! The form of a scheme file: what TOML may hold, and its translation into rules.
 
 use super::{PassRules, Rules};
-use crate::{Error, Exact, Fan, Lattice, Number, OneRing, Site};
+use crate::{Error, Exact, Fan, Lattice, Line, Number, OneRing, RuleFault, Site};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -265,6 +265,9 @@ impl Reader<'_> {
                 taps.push((offset, self.number(weight, &what)?));
             }
             line.push(taps);
+        }
+        if !Line::new(line.clone()).connects(from, to) {
+            return Err(self.error(classes, format!("{place}: {}", RuleFault::Line { from, to })));
         }
         let mut special: Vec<(Site, Vec<(Site, Exact)>)> = Vec::new();
         for entry in table.get("special").map_or(Ok(Vec::new()), |list| {

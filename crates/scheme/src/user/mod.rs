@@ -46,8 +46,9 @@
 //!
 //! A special point given for sector 0 only holds for all sectors; if any is given for another sector, every sector stands for
 //! itself. Numbers are taken as the exact decimals and fractions that are written, of any length; symmetry and degree are
-//! derived from them. `degree` may be left out; one that is not that of the lines is refused. How weights that a program has
-//! rounded are read is said in [`Reading`].
+//! derived from them. `degree` may be left out; another one than that of the B-splines that the lines refine is
+//! refused, and it has no effect where they refine none. How weights that a program has rounded are read is said
+//! in [`Reading`].
 
 mod balance;
 mod file;
@@ -62,8 +63,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Reading {
-    /// Sums within 1e-12 of 1 and weights that a symmetry exchanges and that differ by no more are taken for rounded, and
-    /// balanced: equal weights become their mean, and a point's own weight takes what is missing to 1.
+    /// Weights of special stencils that a reflection in a spoke exchanges, those of the centre's also if a
+    /// rotation does, and sums of special stencils, are taken for rounded where they differ by at most 1e-12, from
+    /// each other or from 1, and balanced: the weights become their mean, and a point's own weight takes what is
+    /// missing to 1, or all weights alike if the point is not among its own sources.
     #[default]
     Balanced,
     /// As written.
