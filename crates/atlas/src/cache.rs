@@ -1,7 +1,7 @@
 //! What was tuned on demand, remembered between runs.
 //!
-//! Entries are JSON files in a folder named after the version of the tool, so that a new version tunes anew. An entry that cannot be read is
-//! as good as none.
+//! Entries are JSON files in a folder named after the version of the tool, so that a new version tunes anew.
+//! An entry that cannot be read is as good as none.
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -21,8 +21,8 @@ impl Cache {
         }
     }
 
-    /// The user's cache: in `$EIGENRING_CACHE`, else `$XDG_CACHE_HOME/eigenring`, else `~/.cache/eigenring`; none where no variable
-    /// says where that is.
+    /// The user's cache: in `$EIGENRING_CACHE`, else `$XDG_CACHE_HOME/eigenring`, else `~/.cache/eigenring`;
+    /// none where no variable says where that is.
     pub fn of_user() -> Self {
         let variable = |name: &str| {
             std::env::var_os(name)

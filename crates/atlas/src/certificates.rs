@@ -1,7 +1,8 @@
 //! Which certificates are made of named schemes, and what checking them again shows.
 //!
-//! The stored ones are of Catmull-Clark at valences 3 to 64, of the lambda-scheme at its featured lambdas `A`, `M` and `C`, and of its spline
-//! stencils over the recommended range and over all lambdas that are tabulated.
+//! The stored ones are of Catmull-Clark at valences 3 to 64, of the lambda-scheme at its featured lambdas
+//! `A`, `M` and `C`, and of its spline stencils over the recommended range and over all lambdas that are
+//! tabulated.
 
 use crate::error::{Accepted, Error};
 use crate::schemes::{SchemeName, Tuner, read_scheme, stem};
@@ -14,7 +15,8 @@ use eigenring_scheme::user::Reading;
 use eigenring_tune::study::{LAMBDA_A, LAMBDA_M};
 use std::path::{Path, PathBuf};
 
-/// What is certified of a named scheme: its text or its parameters, exactly as given. A file is taken in the given `reading`.
+/// What is certified of a named scheme: its text or its parameters, exactly as given. A file is taken in the
+/// given `reading`.
 ///
 /// # Errors
 /// As [`SchemeName::scheme`].
@@ -36,7 +38,8 @@ pub fn input(scheme: &SchemeName, valence: usize, reading: Reading, tuner: &Tune
     }
 }
 
-/// The curve of members over lambda that a name stands for: the embedded splines of f2 and f3 if it gives no weights, else constants.
+/// The curve of members over lambda that a name stands for: the embedded splines of f2 and f3 if it gives no
+/// weights, else constants.
 ///
 /// # Errors
 /// [`Error::Usage`] for a scheme of another family, or with an s of its own; a valence that is not tabulated.
@@ -92,7 +95,8 @@ pub struct Ranged {
 /// The name of the ranges that reach over all tabulated lambdas.
 pub const TABULATED: &str = "tabulated";
 
-/// The schemes of which certificates are stored: Catmull-Clark whatever the valences, then the featured members of the lambda-scheme.
+/// The schemes of which certificates are stored: Catmull-Clark whatever the valences, then the featured
+/// members of the lambda-scheme.
 ///
 /// # Errors
 /// A valence that is not tabulated.
@@ -179,8 +183,8 @@ const STATEMENTS: [Statement; 11] = [
     Statement::Gauss,
 ];
 
-/// One line a certificate: the verdicts, the status of each statement, eigenvalue and ratio. Certificates are in the order of what they
-/// are of.
+/// One line a certificate: the verdicts, the status of each statement, eigenvalue and ratio. Certificates are
+/// in the order of what they are of.
 pub fn summary(singles: &[Single], certificates: &[Certificate]) -> Table {
     let mut columns = vec!["scheme", "valence", "lambda", "mu_ratio", "jacobian_margin"];
     // the words of the requirements are names of checks too
@@ -250,8 +254,8 @@ pub struct Confirmation {
     pub remark: String,
 }
 
-/// Checks a stored certificate of either kind again, by its evidence alone. The valence is at most `most`: one in a file is no more to be trusted than
-/// one that a user types, and work grows with it.
+/// Checks a stored certificate of either kind again, by its evidence alone. The valence is at most `most`:
+/// one in a file is no more to be trusted than one that a user types, and work grows with it.
 ///
 /// # Errors
 /// [`Error::Read`], and [`Error::InFile`] for what is no certificate or of a larger valence.

@@ -25,7 +25,8 @@ pub struct Row {
     pub lambda: Option<f64>,
     /// `mu / lambda^2`, 1 for bounded curvature without a flat spot.
     pub ratio: Option<f64>,
-    /// K_m, the reach of the second-order maps' Gauss curvatures to the wrong side of zero; of bicubic schemes around a vertex.
+    /// K_m, the reach of the second-order maps' Gauss curvatures to the wrong side of zero; of bicubic
+    /// schemes around a vertex.
     pub sign_change: Option<f64>,
     /// The unweighted objective E, of the same.
     pub total: Option<f64>,
@@ -86,7 +87,8 @@ fn hull(scheme: &Scheme<f64>) -> Option<f64> {
     weights.map(|&(_, weight)| weight).reduce(f64::min)
 }
 
-/// Measures schemes, each with what it is called, at all valences: valence by valence, in the order of the schemes.
+/// Measures schemes, each with what it is called, at all valences: valence by valence, in the order of the
+/// schemes.
 ///
 /// # Errors
 /// Those of the names and of [`Row::new`].
@@ -95,7 +97,8 @@ pub fn compare(schemes: &[(String, SchemeName)], valences: &[usize], tuner: &Tun
         .iter()
         .flat_map(|&valence| schemes.iter().map(move |scheme| (valence, scheme)))
         .collect();
-    // what must be tuned is tuned one after the other: all threads work on each, and it is remembered for the next
+    // what must be tuned is tuned one after the other: all threads work on each, and it is remembered for the
+    // next
     let found: Vec<(&str, Scheme<f64>)> = pairs
         .into_iter()
         .map(|(valence, (name, scheme))| Ok((name.as_str(), scheme.scheme(valence, tuner)?)))

@@ -1,8 +1,8 @@
 //! Comparing result files number by number.
 //!
-//! Two numbers agree if `|a - b| <= atol + rtol |a|`; words must be equal. What a computation cost (evaluations) and what is
-//! rounding by nature (residuals of optimality conditions, slacks of active bounds) may differ between platforms and is not
-//! compared.
+//! Two numbers agree if `|a - b| <= atol + rtol |a|`; words must be equal. What a computation cost
+//! (evaluations) and what is rounding by nature (residuals of optimality conditions, slacks of active bounds)
+//! may differ between platforms and is not compared.
 
 use crate::error::Error;
 use crate::files;
@@ -177,8 +177,8 @@ pub struct Report {
 /// How many of the worst entries are listed for each file.
 const SHOWN: usize = 10;
 
-/// Compares one file that was made anew with the one that is stored: CSV and JSON number by number. Of other files there must be
-/// one in both folders, and not an empty one.
+/// Compares one file that was made anew with the one that is stored: CSV and JSON number by number. Of other
+/// files there must be one in both folders, and not an empty one.
 ///
 /// # Errors
 /// [`Error::Read`] and [`Error::InFile`] for files that are missing or empty.

@@ -3,8 +3,8 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// Everything that can go wrong. A message is one sentence, which ends with what is accepted wherever a value is refused;
-/// [`Error::accepted`] gives that part by itself.
+/// Everything that can go wrong. A message is one sentence, which ends with what is accepted wherever a value
+/// is refused; [`Error::accepted`] gives that part by itself.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// From the rules: a valence, a parameter or a name.
@@ -142,7 +142,8 @@ impl Error {
             Error::Content { accepted, .. } => accepted.as_ref().map(|accepted| accepted.words().to_owned()),
             Error::InFile { source, .. } => source.accepted(),
             Error::Read { .. } | Error::Write { .. } => None,
-            // the libraries below keep their numbers in fields of their own, and end their messages with the accepted ones
+            // the libraries below keep their numbers in fields of their own, and end their messages with the
+            // accepted ones
             Error::Scheme(_)
             | Error::Spectral(_)
             | Error::Objective(_)

@@ -4,7 +4,8 @@ use crate::error::{Accepted, Error};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
-/// Writes a file under a temporary name in the same folder and renames it when it is complete. Folders are made as needed.
+/// Writes a file under a temporary name in the same folder and renames it when it is complete. Folders are
+/// made as needed.
 ///
 /// # Errors
 /// [`Error::Write`].
@@ -54,7 +55,8 @@ pub fn check_writable(folder: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-/// The most that is read of a file: the largest certificate of a known scheme has 3 MB, and a device may never end.
+/// The most that is read of a file: the largest certificate of a known scheme has 3 MB, and a device may
+/// never end.
 const MAX_BYTES: u64 = 1 << 26;
 
 /// The text of a file of at most 64 MB.

@@ -1,11 +1,13 @@
 //! `index.toml`: which command makes which result files, and which tests hold them to account.
 //!
-//! An entry is a table or figure: what it shows, the command that makes it, its files (below the folder of the index) and the
-//! tests that compare them with something else. Commands are run as a user runs them, with the output folder
-//! added; so what an index claims is what anybody gets. A folder without an index, as `eigenring tables --out FOLDER` leaves
-//! it, is described by the commands that its `tables.json` files record.
+//! An entry is a table or figure: what it shows, the command that makes it, its files (below the folder of
+//! the index) and the tests that compare them with something else. Commands are run as a user runs them, with
+//! the output folder added; so what an index claims is what anybody gets. A folder without an index, as
+//! `eigenring tables --out FOLDER` leaves it, is described by the commands that its `tables.json` files
+//! record.
 //!
-//! Which command lines make sense is for whoever runs them to say: reading an index asks for it, entry by entry.
+//! Which command lines make sense is for whoever runs them to say: reading an index asks for it, entry by
+//! entry.
 
 use crate::error::{Accepted, Error, accepted_in};
 use crate::files;
@@ -65,8 +67,9 @@ impl Index {
     /// The index of a folder.
     ///
     /// # Errors
-    /// [`Error::Read`] if there is neither an index nor a `tables.json`, [`Error::InFile`] if what is there makes no sense:
-    /// another version, two entries of one name, files outside the folder, or a command that is refused.
+    /// [`Error::Read`] if there is neither an index nor a `tables.json`, [`Error::InFile`] if what is there
+    /// makes no sense: another version, two entries of one name, files outside the folder, or a command that
+    /// is refused.
     pub fn of(folder: &Path, accept: Accept<'_>) -> Result<Self, Error> {
         let path = folder.join(INDEX);
         if !path.exists() {

@@ -1,8 +1,10 @@
-//! Schemes by name, from files or tuned on demand, and everything that the `eigenring` command prints of them, as a library.
+//! Schemes by name, from files or tuned on demand, and everything that the `eigenring` command prints of
+//! them, as a library.
 //!
-//! The crates below know one thing each: what a scheme is, what follows from it, how one is found, what can be proven of it, how a picture
-//! is drawn. This one puts them together. Its functions take plain values, and return plain data, a [`table::Table`] or a
-//! [`figures::Drawing`]; where a result goes is for the caller to say.
+//! The crates below know one thing each: what a scheme is, what follows from it, how one is found, what can
+//! be proven of it, how a picture is drawn. This one puts them together. Its functions take plain values, and
+//! return plain data, a [`table::Table`] or a [`figures::Drawing`]; where a result goes is for the caller to
+//! say.
 //!
 //! ```
 //! use eigenring_atlas::schemes::{SchemeName, Tuner};
@@ -35,11 +37,13 @@
 //! | [`index`], [`difference`] | what makes and checks `results/`, and comparing its files number by number |
 //! | [`table`], [`progress`], [`files`], [`cache`] | tables in four formats; telling of long work, and the one parallel loop; complete files; remembered stencils |
 //!
-//! **Surroundings.** Nothing here knows of command lines, terminals and exit codes. Whoever waits is told of progress through a
-//! [`progress::Progress`]. Work is parallel on the current pool of rayon, and no result depends on the number of threads. Files are read and
-//! written where a path is given; the user's cache is asked only by a [`schemes::Tuner`] that was given it.
+//! **Surroundings.** Nothing here knows of command lines, terminals and exit codes. Whoever waits is told of
+//! progress through a [`progress::Progress`]. Work is parallel on the current pool of rayon, and no result
+//! depends on the number of threads. Files are read and written where a path is given; the user's cache is
+//! asked only by a [`schemes::Tuner`] that was given it.
 //!
-//! **Errors** are one enum, [`Error`]: what is wrong, with the offending value, and what is accepted in its place.
+//! **Errors** are one enum, [`Error`]: what is wrong, with the offending value, and what is accepted in its
+//! place.
 
 pub mod cache;
 pub mod certificates;

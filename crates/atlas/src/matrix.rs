@@ -1,7 +1,7 @@
 //! Local matrices in the formats of other programs, with their numbering.
 //!
-//! Row i holds the weights of refined point i. Points are numbered rings outwards, within a ring sector by sector, within a sector from
-//! spoke i towards spoke i+1; the vertex, if there is one, is point 0.
+//! Row i holds the weights of refined point i. Points are numbered rings outwards, within a ring sector by
+//! sector, within a sector from spoke i towards spoke i+1; the vertex, if there is one, is point 0.
 
 use crate::error::Error;
 use crate::spectrum::check_rings;

@@ -1,7 +1,7 @@
 //! How long work tells of its progress, and the one loop that does it in parallel.
 //!
-//! What is told is for whoever waits, and changes no result. A command draws bars and prints notes; a program that does not
-//! care passes [`Silent`].
+//! What is told is for whoever waits, and changes no result. A command draws bars and prints notes; a program
+//! that does not care passes [`Silent`].
 
 use rayon::prelude::*;
 use std::fmt;
@@ -38,11 +38,12 @@ impl Task for Silent {
     fn advanced(&self) {}
 }
 
-/// Maps items in parallel, on the threads of the current pool of rayon. Results are in the order of the items and do not depend on
-/// the number of threads.
+/// Maps items in parallel, on the threads of the current pool of rayon. Results are in the order of the items
+/// and do not depend on the number of threads.
 ///
 /// # Errors
-/// The first one in the order of the items, whatever the number of threads. After an error no later item is begun.
+/// The first one in the order of the items, whatever the number of threads. After an error no later item is
+/// begun.
 pub fn each<T: Sync, R: Send, E: Send>(
     progress: &dyn Progress,
     what: &str,
@@ -54,7 +55,8 @@ pub fn each<T: Sync, R: Send, E: Send>(
     let results: Vec<Option<Result<R, E>>> = items
         .par_iter()
         .enumerate()
-        // items differ much in size, the largest may take a thousand times as long as the smallest: each is handed out by itself
+        // items differ much in size, the largest may take a thousand times as long as the smallest: each is
+        // handed out by itself
         .with_max_len(1)
         .map(|(index, item)| {
             if index > failed.load(Ordering::Relaxed) {

@@ -1,6 +1,7 @@
 //! The files of `results/lambda`: what is tabulated, as text.
 //!
-//! Everything here is a pure function of the studies, so that a check can compare a regenerated file with the one on disk.
+//! Everything here is a pure function of the studies, so that a check can compare a regenerated file with the
+//! one on disk.
 
 use crate::run::Parameters;
 use crate::table::{Cell, Format, Table};
@@ -138,7 +139,8 @@ pub fn table(studies: &[Study], parameters: &Parameters) -> Result<LambdaTable, 
     LambdaTable::new(tool(), command(parameters) + " --embed", entries)
 }
 
-/// What people look at first: the optimal lambda of each valence beside the published one, its stencil, and how good the splines are.
+/// What people look at first: the optimal lambda of each valence beside the published one, its stencil, and
+/// how good the splines are.
 pub fn summary(studies: &[Study]) -> Table {
     let mut table = Table::new([
         "N",
@@ -246,7 +248,8 @@ fn coefficients(studies: &[Study], values: impl Fn(&Study) -> &[f64; 17]) -> Tab
 fn knots(studies: &[Study]) -> Table {
     let mut table = Table::new(std::iter::once("valence".to_owned()).chain((1..=21).map(|i| format!("xi{i}"))));
     for study in studies {
-        // Eq. 21: fourfold ends, triple knots b, c, d, and the middles. A study's knots were valid when it was made
+        // Eq. 21: fourfold ends, triple knots b, c, d, and the middles. A study's knots were valid when it
+        // was made
         let knots = study
             .knots
             .values

@@ -1,7 +1,7 @@
 //! The main job: samples in parallel, then a study for each valence.
 //!
-//! Samples take hours for many valences. They can be kept elsewhere as they are finished ([`Kept`]), so that an interrupted run resumes to the same
-//! results.
+//! Samples take hours for many valences. They can be kept elsewhere as they are finished ([`Kept`]), so that
+//! an interrupted run resumes to the same results.
 
 use crate::error::Error;
 use crate::progress::{Progress, each};
@@ -114,13 +114,15 @@ impl Parameters {
         (options, range)
     }
 
-    /// The splines and featured values of a study of this run. Where no end of the recommended region was found, it is that of the range.
+    /// The splines and featured values of a study of this run. Where no end of the recommended region was
+    /// found, it is that of the range.
     pub fn entry(&self, study: &Study) -> Entry {
         let lambda_r2 = study.featured("lambda_r2").map_or(self.range[1], |f| f.lambda);
         study.entry(self.phi, lambda_r2)
     }
 
-    /// What the samples depend on, on one line: the parameters but those that come later, and the tool's version.
+    /// What the samples depend on, on one line: the parameters but those that come later, and the tool's
+    /// version.
     pub fn sample_key(&self) -> String {
         let later = Parameters {
             valences: Vec::new(),
@@ -187,7 +189,8 @@ impl Kept for () {
     }
 }
 
-/// Computes the studies of all valences, in their order. Finished samples are taken from where they are `kept`, and added there.
+/// Computes the studies of all valences, in their order. Finished samples are taken from where they are
+/// `kept`, and added there.
 ///
 /// # Errors
 /// Those of [`check`], of tuning and fitting, and of keeping samples.

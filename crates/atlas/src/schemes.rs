@@ -1,7 +1,8 @@
 //! Schemes by name, from files, and tuned on demand.
 //!
-//! A [`SchemeName`] is a [`Spec`] or `file:PATH`. Names of the lambda-scheme are resolved by [`Spec::member`], which every caller shares; what
-//! the embedded table does not hold is asked of a [`Tuner`], which remembers what it found.
+//! A [`SchemeName`] is a [`Spec`] or `file:PATH`. Names of the lambda-scheme are resolved by
+//! [`Spec::member`], which every caller shares; what the embedded table does not hold is asked of a
+//! [`Tuner`], which remembers what it found.
 
 use crate::cache::Cache;
 use crate::error::Error;
@@ -10,7 +11,7 @@ use crate::run::minima_over_lambda;
 use crate::table::short;
 use eigenring_scheme::lambda::{Bounds, Domain, Member, Plane, Source, Untabulated};
 use eigenring_scheme::user::{Reading, UserScheme};
-use eigenring_scheme::{Scheme, Spec};
+use eigenring_scheme::{Corner, Definition, Scheme, Spec};
 use eigenring_tune::sweep::{Options, Problem};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -19,7 +20,8 @@ use std::str::FromStr;
 /// Weights given by users may miss a bound by this much: they are often printed to seven digits.
 const FEASIBILITY_TOLERANCE: f64 = 1e-6;
 
-/// A member of the lambda-scheme with weights that must be feasible, up to 1e-6. At valence 4, where f3 is mu, it is set to mu exactly.
+/// A member of the lambda-scheme with weights that must be feasible, up to 1e-6. At valence 4, where f3 is
+/// mu, it is set to mu exactly.
 ///
 /// `s` is that of the rule if not given; `phi` is the ratio alpha / beta, 6 in the paper.
 ///
@@ -35,7 +37,8 @@ pub fn feasible(valence: usize, lambda: f64, s: Option<f64>, phi: f64, [f2, f3]:
     Ok(member)
 }
 
-/// Finds members of the lambda-scheme that the embedded table does not hold: in a cache, or by tuning with the default [`Options`].
+/// Finds members of the lambda-scheme that the embedded table does not hold: in a cache, or by tuning with
+/// the default [`Options`].
 #[derive(Clone, Debug)]
 pub struct Tuner<'a> {
     /// Where tuned members are remembered.
@@ -193,7 +196,8 @@ impl SchemeName {
     /// The scheme around a centre of the given valence. A file is read with the default [`Reading`].
     ///
     /// # Errors
-    /// Those of the rules; [`Error::Read`] and [`Error::InFile`] for a file; those of the tuning where the lambda-scheme is not tabulated.
+    /// Those of the rules; [`Error::Read`] and [`Error::InFile`] for a file; those of the tuning where the
+    /// lambda-scheme is not tabulated.
     pub fn scheme(&self, valence: usize, tuner: &Tuner<'_>) -> Result<Scheme<f64>, Error> {
         match self {
             SchemeName::File(path) => Ok(read_scheme(path, Reading::default())?.scheme(valence)?),
@@ -202,6 +206,35 @@ impl SchemeName {
                 None => Ok(spec.scheme(valence)?),
             },
         }
+    }
+
+    /// The scheme at all corners, as far as it is known without tuning. A file is read now, and no more.
+    ///
+    /// # Errors
+    /// As [`read_scheme`].
+    pub fn definition(&self, reading: Reading) -> Result<Definition, Error> {
+        match self {
+            SchemeName::Spec(spec) => Ok(Definition::Family(spec.clone())),
+            SchemeName::File(path) => Ok(Definition::File(read_scheme(path, reading)?)),
+        }
+    }
+
+    /// The scheme around a corner. Around a centre without creases and knot intervals it is that of
+    /// [`SchemeName::scheme`]; around others nothing is tuned.
+    ///
+    /// # Errors
+    /// As [`SchemeName::scheme`]; [`eigenring_scheme::Error::Unsupported`] for a kind of corner that the
+    /// scheme has no rules for.
+    pub fn around(&self, corner: &Corner, tuner: &Tuner<'_>) -> Result<Scheme<f64>, Error> {
+        let definition = self.definition(Reading::default())?;
+        if let SchemeName::Spec(spec) = self
+            && corner.is_plain()
+            && corner.centre() == definition.centre()
+            && let Some(member) = tuner.member(spec, corner.sectors().sectors())?
+        {
+            return Ok(member.scheme(spec.to_string())?);
+        }
+        Ok(definition.around(corner)?)
     }
 
     /// The member of the lambda-scheme that is named, if it is one.
@@ -270,6 +303,7 @@ impl FromStr for SchemeList {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use eigenring_scheme::Centre;
 
     #[test]
     fn lists_of_specs_keep_parameters_together() {
@@ -323,6 +357,12 @@ mod tests {
                 }
             }
         }
+        // around a plain corner it is the same scheme, and around others the family's
+        let name: SchemeName = "lambda:optimal".parse().unwrap();
+        let corner = Corner::closed(Centre::Vertex, 6).unwrap();
+        let (a, b) = (name.around(&corner, &tuner).unwrap(), name.scheme(6, &tuner).unwrap());
+        assert!(a.limit().passes()[0].special() == b.limit().passes()[0].special());
+        assert!(name.around(&Corner::fan(2).unwrap(), &tuner).is_ok());
         // where only the tuner can help, the libraries refuse
         for (spec, valence) in [
             ("lambda:optimal", 22),

@@ -1,4 +1,5 @@
-//! Eigenvalues, Fourier indices and limit stencils of a scheme's local matrix, or of a matrix that somebody has.
+//! Eigenvalues, Fourier indices and limit stencils of a scheme's local matrix, or of a matrix that somebody
+//! has.
 
 use crate::error::{Accepted, Error};
 use crate::table::{Format, Record, Table, short};
@@ -9,8 +10,8 @@ use serde_json::{Map, Value, json};
 /// The most rings that are taken for meant: a block of 64 rings has 4160 rows.
 pub const MAX_RINGS: usize = 64;
 
-/// Entries of corresponding sectors in a matrix may differ by this much relative to the largest: files are often printed to ten
-/// digits.
+/// Entries of corresponding sectors in a matrix may differ by this much relative to the largest: files are
+/// often printed to ten digits.
 const CIRCULANT_TOLERANCE: f64 = 1e-9;
 
 /// Row sums further than this from 1 are worth a warning: beyond the rounding of printed weights.
@@ -33,26 +34,29 @@ pub(crate) fn check_rings(rings: usize, closed: usize) -> Result<usize, Error> {
 
 /// A local matrix with its spectrum.
 ///
-/// Blocks k and N-k share their spectrum: eigenvalues are listed once, with `fourier = k <= N/2` and the multiplicity in the whole
-/// matrix, by falling modulus.
+/// Blocks k and N-k share their spectrum: eigenvalues are listed once, with `fourier = k <= N/2` and the
+/// multiplicity in the whole matrix, by falling modulus.
 #[derive(Clone, Debug)]
 pub struct Analysis {
     /// What it is the matrix of.
     pub name: String,
     /// The matrix, in blocks where it has them.
     pub system: LocalSystem,
-    /// The smallest closed number of rings, and the largest modulus of the eigenvalues outside of it; unknown for a matrix.
+    /// The smallest closed number of rings, and the largest modulus of the eigenvalues outside of it; unknown
+    /// for a matrix.
     pub closed: Option<(usize, f64)>,
     /// Its eigenvalues.
     pub spectrum: Spectrum,
 }
 
 impl Analysis {
-    /// Analyses a level of a scheme, by default the limit level, on so many rings of control points: by default the smallest closed set,
-    /// and one ring more where the eigenvalues outside of it are not strictly below the subsubdominant one.
+    /// Analyses a level of a scheme, by default the limit level, on so many rings of control points: by
+    /// default the smallest closed set, and one ring more where the eigenvalues outside of it are not
+    /// strictly below the subsubdominant one.
     ///
     /// # Errors
-    /// [`Error::Range`] for a number of rings that is not closed under refinement or beyond [`MAX_RINGS`]; those of the decomposition.
+    /// [`Error::Range`] for a number of rings that is not closed under refinement or beyond [`MAX_RINGS`];
+    /// those of the decomposition.
     pub fn of_scheme(scheme: &Scheme<f64>, rings: Option<usize>, level: Option<usize>) -> Result<Self, Error> {
         let level = level.map_or(scheme.limit(), |level| scheme.level(level));
         let closed = scheme.closed_rings()?;
@@ -74,7 +78,8 @@ impl Analysis {
         })
     }
 
-    /// Analyses a matrix of a valence, whose points are in the order of the [`Numbering`](eigenring_scheme::Numbering).
+    /// Analyses a matrix of a valence, whose points are in the order of the
+    /// [`Numbering`](eigenring_scheme::Numbering).
     ///
     /// # Errors
     /// Those of [`LocalSystem::from_matrix`] and of the decomposition.
@@ -95,7 +100,8 @@ impl Analysis {
             .then(|| format!("the rows of the local matrix do not sum to 1: the largest defect is {defect:e}"))
     }
 
-    /// What the list of eigenvalues does not say by itself: rings beyond the smallest closed set, a defective subdominant eigenvalue.
+    /// What the list of eigenvalues does not say by itself: rings beyond the smallest closed set, a defective
+    /// subdominant eigenvalue.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
         let rings = self.system.numbering().rings;
@@ -127,7 +133,8 @@ impl Analysis {
         notes
     }
 
-    /// Scheme, valence, rings and points, subdominant and subsubdominant eigenvalue (the modulus of a complex one), and their ratio s.
+    /// Scheme, valence, rings and points, subdominant and subsubdominant eigenvalue (the modulus of a complex
+    /// one), and their ratio s.
     pub fn head(&self) -> Record {
         let (numbering, spectrum) = (self.system.numbering(), &self.spectrum);
         let lattice = match numbering.lattice {

@@ -5,7 +5,8 @@ use crate::table::{Record, Table};
 use eigenring_scheme::lambda::Member;
 use eigenring_tune::objective::{Objective, Settings};
 
-/// Valence, lambda, mu and s, the nine weights, those of the generalised Catmull-Clark form, and where they come from.
+/// Valence, lambda, mu and s, the nine weights, those of the generalised Catmull-Clark form, and where they
+/// come from.
 pub fn weights(member: &Member) -> Record {
     let stencil = member.plane.stencil(member.f2, member.f3);
     let mut record = Record::default()
@@ -23,8 +24,8 @@ pub fn weights(member: &Member) -> Record {
         .with("source", member.source.name())
 }
 
-/// The objective E with K_m, and its parts map by map: value, integrals a, b and c, and the extremes of `z_xx z_yy - z_xy^2` over the Gauss
-/// points, unsigned.
+/// The objective E with K_m, and its parts map by map: value, integrals a, b and c, and the extremes of
+/// `z_xx z_yy - z_xy^2` over the Gauss points, unsigned.
 ///
 /// # Errors
 /// Those of the settings, and [`Error::Objective`] where the maps do not exist.

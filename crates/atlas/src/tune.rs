@@ -23,8 +23,9 @@ pub struct Found {
     pub minima: Table,
 }
 
-/// Optimises f2 and f3 at one lambda. Of several local minima the one of the branch is taken that is continued from the global optimum
-/// over lambda ("continued"), as far as that is tabulated, else the lowest ("lowest").
+/// Optimises f2 and f3 at one lambda. Of several local minima the one of the branch is taken that is
+/// continued from the global optimum over lambda ("continued"), as far as that is tabulated, else the lowest
+/// ("lowest").
 ///
 /// # Errors
 /// Those of [`Relaxation::plane`](eigenring_scheme::lambda::Relaxation::plane) and of the search.
@@ -68,8 +69,8 @@ pub fn over_lambda(valence: usize, options: &Options, progress: &dyn Progress) -
     })
 }
 
-/// Which of the minima the embedded spline follows: the nearest, if the valence is tabulated at this lambda and the objective
-/// is the one that was tabulated.
+/// Which of the minima the embedded spline follows: the nearest, if the valence is tabulated at this lambda
+/// and the objective is the one that was tabulated.
 fn tabulated(found: &Sample, options: &Options) -> Result<Option<usize>, Error> {
     let Ok(entry) = LambdaTable::embedded()?.entry(found.valence) else {
         return Ok(None);

@@ -1,7 +1,8 @@
-//! Certificates as documents: what the kinds of them have in common when they are written, read and compared with their text.
+//! Certificates as documents: what the kinds of them have in common when they are written, read and compared
+//! with their text.
 //!
-//! A document is JSON with a version of its format and a digest of everything else in it. The digest detects accidents; see
-//! [`certificate`](crate::certificate) on why that is all it needs to do.
+//! A document is JSON with a version of its format and a digest of everything else in it. The digest detects
+//! accidents; see [`certificate`](crate::certificate) on why that is all it needs to do.
 
 use crate::Error;
 use serde::{Deserialize, Serialize};
@@ -43,7 +44,8 @@ pub(crate) trait Document: Clone + Serialize + for<'de> Deserialize<'de> {
         Ok(text)
     }
 
-    /// The document as JSON on one line: evidence is for the checks to read, and takes a third of the room of indented JSON.
+    /// The document as JSON on one line: evidence is for the checks to read, and takes a third of the room of
+    /// indented JSON.
     fn on_one_line(&self) -> Result<String, Error> {
         Ok(serde_json::to_string(self).map_err(syntax)? + "\n")
     }

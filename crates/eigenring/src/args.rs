@@ -12,8 +12,8 @@ use eigenring_tune::sweep::Options;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
-/// The largest valence the command takes. Local matrices grow with the square of the valence, and nothing beyond is met in
-/// practice.
+/// The largest valence the command takes. Local matrices grow with the square of the valence, and nothing
+/// beyond is met in practice.
 pub const MAX_VALENCE: usize = 1000;
 
 /// The default margin, that of [`Options`], as it is printed in help texts.
@@ -25,7 +25,8 @@ pub fn valence(text: &str) -> Result<usize, String> {
     valence.ok_or_else(|| format!("accepted is 3 to {MAX_VALENCE}"))
 }
 
-/// Reads a number. Its range, which may depend on other arguments, is for the command to check, and so is NaN.
+/// Reads a number. Its range, which may depend on other arguments, is for the command to check, and so is
+/// NaN.
 pub fn number(text: &str) -> Result<f64, String> {
     text.parse().map_err(|_| "accepted is a number such as 0.55".to_owned())
 }

@@ -1,8 +1,9 @@
 //! Samples of an unfinished sweep, so that it can be resumed after any interruption.
 //!
-//! One file a valence: a first line with the parameters, then one line for each finished sample, in whatever order they were
-//! finished. A line that was cut off is dropped; a file with other parameters is started anew. Numbers are written so that they
-//! read back to the same bits, and samples do not depend on each other: a resumed sweep gives the same results.
+//! One file a valence: a first line with the parameters, then one line for each finished sample, in whatever
+//! order they were finished. A line that was cut off is dropped; a file with other parameters is started
+//! anew. Numbers are written so that they read back to the same bits, and samples do not depend on each
+//! other: a resumed sweep gives the same results.
 
 use crate::files;
 use eigenring_atlas::Error;

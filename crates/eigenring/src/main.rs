@@ -1,8 +1,8 @@
 //! The eigenring command.
 //!
-//! Each module of `commands` is one subcommand: its arguments, and where the results go. What is computed is a function of
-//! `eigenring-atlas`, which is told of arguments as plain values and knows nothing of command lines, terminals and exit codes. Exit codes: 0 done
-//! or proven, 1 refuted or different, 2 bad input.
+//! Each module of `commands` is one subcommand: its arguments, and where the results go. What is computed is
+//! a function of `eigenring-atlas`, which is told of arguments as plain values and knows nothing of command
+//! lines, terminals and exit codes. Exit codes: 0 done or proven, 1 refuted or different, 2 bad input.
 
 mod args;
 mod checkpoint;

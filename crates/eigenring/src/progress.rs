@@ -5,7 +5,8 @@ use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::LazyLock;
 
-/// All bars on the screen: work that is started within work has a line of its own. Hidden unless standard error is a terminal.
+/// All bars on the screen: work that is started within work has a line of its own. Hidden unless standard
+/// error is a terminal.
 static BARS: LazyLock<MultiProgress> = LazyLock::new(|| {
     let target = if std::io::stderr().is_terminal() {
         ProgressDrawTarget::stderr()

@@ -1,8 +1,9 @@
 //! Curves that their control points give exactly, as input for everybody who has no file of points.
 //!
-//! With `w = 2 arccos u0` (`2 arcosh u0`) a curve of order k contains `1, t, .., t^(k-3)` and cosine and sine (hyperbolic ones) of
-//! `w t`, and its control points follow in closed form (Fang, Ma and Wang, *A generalized surface subdivision scheme of arbitrary order with a
-//! tension parameter*; `Curve::reproduce`). With x as the parameter from the middle of the domain, T as that of the published figure:
+//! With `w = 2 arccos u0` (`2 arcosh u0`) a curve of order k contains `1, t, .., t^(k-3)` and cosine and sine
+//! (hyperbolic ones) of `w t`, and its control points follow in closed form (Fang, Ma and Wang, *A
+//! generalized surface subdivision scheme of arbitrary order with a tension parameter*; `Curve::reproduce`).
+//! With x as the parameter from the middle of the domain, T as that of the published figure:
 //!
 //! ```text
 //! circle     (cos wt, sin wt)            closed, n points and u0 = cos(pi/n)
@@ -14,8 +15,8 @@
 //! fang-fig1  (T + cos 2T + sin 2T, T + cos 2T, T^2 + 2T + 2 sin 2T),  T from 3 pi/2    |u0| < 1, k >= 5
 //! ```
 //!
-//! The last one is the curve to which the control points printed with Fig. 1 of the paper belong (order 5, `u0 = cos(pi/4)`, 8 points, T up to
-//! 5 pi/2); see docs/deviations.md.
+//! The last one is the curve to which the control points printed with Fig. 1 of the paper belong (order 5,
+//! `u0 = cos(pi/4)`, 8 points, T up to 5 pi/2); see docs/deviations.md.
 
 use crate::error::Error;
 use eigenring_scheme::curve::{Axis, Curve, Ends, Function, Space};
@@ -54,8 +55,9 @@ impl Exact {
     }
 }
 
-/// The most control points of an example, and the most around the axis of a surface of revolution. A circle of n points must close
-/// to 1e-12 of its radius, and its angle as an arc cosine has an error that n roundings times n grow to.
+/// The most control points of an example, and the most around the axis of a surface of revolution. A circle
+/// of n points must close to 1e-12 of its radius, and its angle as an arc cosine has an error that n
+/// roundings times n grow to.
 pub const MOST: usize = 64;
 
 /// Control points of closed examples by default.
@@ -119,7 +121,8 @@ impl Example {
     /// The curve with its control points; what is not given is the example's own.
     ///
     /// # Errors
-    /// [`Error::Range`] for a number of points or a tension that the example does not have; those of the curve.
+    /// [`Error::Range`] for a number of points or a tension that the example does not have; those of the
+    /// curve.
     pub fn curve(self, order: Option<usize>, u0: Option<f64>, count: Option<usize>) -> Result<(Curve, Exact), Error> {
         let order = order.unwrap_or(self.order());
         // refuses orders before they are counted with
@@ -146,7 +149,8 @@ impl Example {
         Ok((curve, Exact { space, functions }))
     }
 
-    /// The initial tension: given, determined by the number of points, or the default; checked against what the functions need.
+    /// The initial tension: given, determined by the number of points, or the default; checked against what
+    /// the functions need.
     fn tension(self, given: Option<f64>, count: usize) -> Result<f64, Error> {
         let refuse = |u0: f64, accepted: String| {
             Err(Error::Range {

@@ -17,7 +17,8 @@ pub fn count_after(axis: &Axis, levels: u32) -> f64 {
     f64::from(levels).exp2() * axis.intervals() as f64 + beyond as f64
 }
 
-/// Refuses more levels than a table of all their points holds; `count` is the number of points after so many levels.
+/// Refuses more levels than a table of all their points holds; `count` is the number of points after so many
+/// levels.
 pub fn check(levels: usize, count: impl Fn(u32) -> f64) -> Result<u32, Error> {
     let fits = |level: &u32| count(*level) <= MOST_POINTS as f64;
     let Some(most) = (0..=MOST_LEVELS).rev().find(fits) else {

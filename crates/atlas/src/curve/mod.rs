@@ -1,6 +1,7 @@
 //! Curves and surfaces of revolution: refinement of control points, limit, pictures.
 //!
-//! [`refine`] and [`revolve`] are everything that is known of a polygon at some levels; tables, pictures and OBJ are made of that.
+//! [`refine`] and [`revolve`] are everything that is known of a polygon at some levels; tables, pictures and
+//! OBJ are made of that.
 
 mod example;
 mod levels;
@@ -16,7 +17,8 @@ use crate::table::{Record, Table};
 use eigenring_figure::{Figure, Width};
 use eigenring_scheme::curve::{Curve, Ends, Grid};
 
-/// The most points that a table of one level or of the limit holds: beyond, it would be hundreds of megabytes of text.
+/// The most points that a table of one level or of the limit holds: beyond, it would be hundreds of megabytes
+/// of text.
 const MOST_POINTS: usize = 1 << 20;
 
 /// The fewest pieces of a drawn limit: then they are too short for corners to be seen.
@@ -62,7 +64,8 @@ impl Refined {
         &self.levels[0]
     }
 
-    /// Order, tension, ends, numbers of points, coordinates and levels, domain; with the deviation if it is known.
+    /// Order, tension, ends, numbers of points, coordinates and levels, domain; with the deviation if it is
+    /// known.
     pub fn summary(&self) -> Record {
         with_deviation(summary(self.curve(), self.levels.len() - 1), self.deviation)
     }
@@ -103,12 +106,12 @@ pub struct Revolved {
     samples: usize,
 }
 
-/// Turns a curve around the third axis in so many `segments`, and refines the grid `levels` times. Of two coordinates the first
-/// is the radius and the second the height.
+/// Turns a curve around the third axis in so many `segments`, and refines the grid `levels` times. Of two
+/// coordinates the first is the radius and the second the height.
 ///
 /// # Errors
-/// [`Error::Range`] for numbers of segments and for more points than a table holds; [`Error::Usage`] for a curve of other than two or three
-/// coordinates; those of the grid.
+/// [`Error::Range`] for numbers of segments and for more points than a table holds; [`Error::Usage`] for a
+/// curve of other than two or three coordinates; those of the grid.
 pub fn revolve(
     curve: &Curve,
     exact: Option<&Exact>,

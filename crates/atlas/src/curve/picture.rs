@@ -1,7 +1,7 @@
 //! A curve as a picture: control polygon, levels, limit.
 //!
-//! A plane curve is drawn as it is, one coordinate as a graph over the parameter, a spatial curve in plan and elevation: x, y and x, z. Scales
-//! are equal in both directions unless that would leave a thread.
+//! A plane curve is drawn as it is, one coordinate as a graph over the parameter, a spatial curve in plan and
+//! elevation: x, y and x, z. Scales are equal in both directions unless that would leave a thread.
 
 use super::levels::coordinates;
 use crate::error::Error;
@@ -23,7 +23,8 @@ const HEIGHT: (f64, f64) = (30.0, 120.0);
 /// Coordinates that differ by less than this part of their size are the same but for rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// The range that shows these values, which are coordinates of points as large as `size`: not that of rounding errors.
+/// The range that shows these values, which are coordinates of points as large as `size`: not that of
+/// rounding errors.
 pub fn visible_range(values: impl IntoIterator<Item = f64>, size: f64, margin: f64) -> (f64, f64) {
     let (low, high) = range_of(values, 0.0).unwrap_or((0.0, 0.0));
     let size = if size > 0.0 { size } else { 1.0 };
@@ -57,7 +58,8 @@ fn polygon(curve: &Curve) -> Path {
     path
 }
 
-/// The picture of a curve of one to three coordinates: `levels` from the control polygon on, points of the limit with their parameters.
+/// The picture of a curve of one to three coordinates: `levels` from the control polygon on, points of the
+/// limit with their parameters.
 pub fn figure(levels: &[Curve], limit: &[(f64, Vec<f64>)], width: Width, title: &str) -> Result<Figure, Error> {
     let dimension = levels.first().map_or(0, Curve::dimension);
     let pick = |i: usize| move |(t, point): &(f64, Vec<f64>)| if i == 0 { *t } else { point[i - 1] };

@@ -4,7 +4,8 @@
 
 use crate::error::{Accepted, Error};
 
-/// The points in a text: at least one coordinate each, all as many, all finite. How many points are needed is for the curve to say.
+/// The points in a text: at least one coordinate each, all as many, all finite. How many points are needed is
+/// for the curve to say.
 ///
 /// # Errors
 /// [`Error::Content`] with line and column, counted from 1.

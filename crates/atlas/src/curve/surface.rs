@@ -1,7 +1,8 @@
 //! Surfaces of revolution: the generatrix turns around the third axis (Fang, Ma and Wang, Algorithm 2).
 //!
-//! A generatrix of two coordinates is taken as radius and height. The grid is refined in both directions (Algorithm 1); faces join points (i, j),
-//! (i, j+1), (i+1, j+1), (i+1, j), counterclockwise seen from outside where the generatrix rises.
+//! A generatrix of two coordinates is taken as radius and height. The grid is refined in both directions
+//! (Algorithm 1); faces join points (i, j), (i, j+1), (i+1, j+1), (i+1, j), counterclockwise seen from
+//! outside where the generatrix rises.
 
 use super::picture::{size_of, visible_range};
 use crate::error::Error;

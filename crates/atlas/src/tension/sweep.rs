@@ -44,8 +44,8 @@ pub struct Row {
     dominant: bool,
 }
 
-/// Moduli closer than this are equal: eigenvalues are accurate to 1e-13 or so where they are well-conditioned, and a gap
-/// that is not seen to be larger is none.
+/// Moduli closer than this are equal: eigenvalues are accurate to 1e-13 or so where they are
+/// well-conditioned, and a gap that is not seen to be larger is none.
 const EQUAL: f64 = 1e-10;
 
 impl Row {
@@ -54,7 +54,8 @@ impl Row {
         self.moduli[1].unwrap_or(0.0) - self.moduli[2].unwrap_or(0.0).max(self.outer)
     }
 
-    /// Whether `1 = lambda_0 > |lambda_1| = |lambda_2| > |lambda_3|`, further rings included, with the pair in blocks 1, N-1.
+    /// Whether `1 = lambda_0 > |lambda_1| = |lambda_2| > |lambda_3|`, further rings included, with the pair
+    /// in blocks 1, N-1.
     pub fn holds(&self) -> bool {
         let [Some(first), Some(second), _] = self.moduli else {
             return false;

@@ -19,9 +19,10 @@ use std::process::ExitCode;
 
 /// Refine the control points of a curve of any order with tension, and draw it.
 ///
-/// POINTS is a CSV file: a point a line, one coordinate or more, with or without a header. The refined points of the last level
-/// go to standard output, or with -o into a file; columns are level, parameter, and x, y, z (x1, x2, ... beyond three).
-/// An open curve belongs to the middle of its polygon: it does not reach the first and the last control point.
+/// POINTS is a CSV file: a point a line, one coordinate or more, with or without a header. The refined points
+/// of the last level go to standard output, or with -o into a file; columns are level, parameter, and x, y, z
+/// (x1, x2, ... beyond three). An open curve belongs to the middle of its polygon: it does not reach the
+/// first and the last control point.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  eigenring curve --example circle --count 4 --order 3    four points, an exact circle\n  eigenring curve --example fang-fig1 --levels 4 -o refined.csv --limit limit.csv --plot curve.svg\n  eigenring curve --example ellipse --levels 1 --format json\n  eigenring curve --example hyperbola --revolve --segments 6 --obj hyperboloid.obj --plot hyperboloid.png\nWith points of your own: eigenring curve points.csv --order 4 --u0 10 --closed --plot curve.png"
@@ -30,7 +31,8 @@ pub struct Arguments {
     /// The control points
     #[arg(value_name = "POINTS.csv", required_unless_present = "example")]
     points: Option<PathBuf>,
-    /// A built-in curve that its control points give exactly; the largest distance of the limit from it is reported
+    /// A built-in curve that its control points give exactly; the largest distance of the limit from it is
+    /// reported
     #[arg(long, value_enum, value_name = "NAME", conflicts_with_all = ["points", "closed", "open"])]
     example: Option<ExampleArg>,
     /// Order k, 3 to 32: degree k-1 if u0 = 1; by default 4, or the example's own
@@ -72,7 +74,8 @@ pub struct Arguments {
     /// Width of the picture: one printed column (85 mm) or two (178 mm)
     #[arg(long, value_enum, default_value = "one")]
     size: Size,
-    /// Turn the curve around the z axis; two coordinates are radius and height. Columns are level, u, v, x, y, z
+    /// Turn the curve around the z axis; two coordinates are radius and height. Columns are level, u, v, x,
+    /// y, z
     #[arg(long)]
     revolve: bool,
     /// Control points around the axis, up to 64
@@ -206,7 +209,8 @@ impl Arguments {
         Ok((curve, None))
     }
 
-    /// Says how far the limit is from the exact curve where the tables on standard output have no place for it.
+    /// Says how far the limit is from the exact curve where the tables on standard output have no place for
+    /// it.
     fn note_deviation(&self, deviation: Option<f64>) {
         if let Some(deviation) = deviation
             && self.out.is_none()

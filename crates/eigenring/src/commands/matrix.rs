@@ -12,9 +12,10 @@ use std::process::ExitCode;
 
 /// Write the local subdivision matrix: row i holds the weights of refined point i.
 ///
-/// Points are numbered rings outwards, within a ring sector by sector, within a sector from spoke i towards spoke i+1; the
-/// vertex, if there is one, is point 0. P_i(a,b) is a steps along spoke i and b along spoke i+1. The numbering is part of
-/// the mtx (as comments) and json output; for csv and npy write it with --numbering.
+/// Points are numbered rings outwards, within a ring sector by sector, within a sector from spoke i towards
+/// spoke i+1; the vertex, if there is one, is point 0. P_i(a,b) is a steps along spoke i and b along spoke
+/// i+1. The numbering is part of the mtx (as comments) and json output; for csv and npy write it with
+/// --numbering.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  eigenring matrix --scheme catmull-clark -N 5 --rings 2 --format csv -o S.csv --numbering points.csv\n  eigenring matrix --scheme tension:order=6 -N 3 --format json"
@@ -26,7 +27,8 @@ pub struct Arguments {
     /// Valence
     #[arg(short = 'N', long, value_name = "N", value_parser = args::valence, allow_negative_numbers = true)]
     valence: usize,
-    /// Rings of control points; by default as many as 'eigenring spectrum' takes, mostly the smallest closed set
+    /// Rings of control points; by default as many as 'eigenring spectrum' takes, mostly the smallest closed
+    /// set
     #[arg(long, value_name = "R", value_parser = args::count, allow_negative_numbers = true)]
     rings: Option<usize>,
     /// Level of refinement, 0 for the first; by default the limit level

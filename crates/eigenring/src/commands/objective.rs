@@ -12,8 +12,8 @@ use std::process::ExitCode;
 
 /// Evaluate the objective E, its three parts and the curvature extremes at one stencil.
 ///
-/// gauss_min and gauss_max are the extremes of z_xx z_yy - z_xy^2 over the Gauss points, unsigned; sign_change is K_m, which is
-/// zero if no second-order map changes the sign of its curvature.
+/// gauss_min and gauss_max are the extremes of z_xx z_yy - z_xy^2 over the Gauss points, unsigned;
+/// sign_change is K_m, which is zero if no second-order map changes the sign of its curvature.
 #[derive(Args, Debug)]
 #[command(after_help = "Example:\n  eigenring objective -N 6 --lambda 0.55 --f2 0.25 --f3 0.2")]
 pub struct Arguments {

@@ -18,8 +18,8 @@ use std::str::FromStr;
 
 /// Draw figures, each with its data as CSV beside it.
 ///
-/// Numbers come from the stored results where they are found, and are computed on the spot where not. The names of the
-/// files that were written are printed.
+/// Numbers come from the stored results where they are found, and are computed on the spot where not. The
+/// names of the files that were written are printed.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  eigenring plot --list\n  eigenring plot --all\n  eigenring plot samples --valences 5,8 --size one\n  eigenring plot characteristic-map --schemes catmull-clark,lambda:optimal --valences 5,8\n  eigenring plot stencils --valences 3..20 --range 0.3..0.7 --format svg --out /tmp/figures"

@@ -14,10 +14,10 @@ use std::process::{Command, ExitCode, Output, Stdio};
 
 /// Rebuild results/, or re-check it: every table and figure that its index.toml lists.
 ///
-/// With --check nothing is written there: each entry is made anew in a temporary folder and compared, number by number, with
-/// the files; the worst entries are printed and the exit code is 1 if any differs by more than the tolerances. Entries
-/// with a check of their own, which take long to make, are checked by it, and made anew when named with --only. Pictures
-/// are compared by the numbers that are stored beside them.
+/// With --check nothing is written there: each entry is made anew in a temporary folder and compared, number
+/// by number, with the files; the worst entries are printed and the exit code is 1 if any differs by more
+/// than the tolerances. Entries with a check of their own, which take long to make, are checked by it, and
+/// made anew when named with --only. Pictures are compared by the numbers that are stored beside them.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  eigenring reproduce --check\n  eigenring reproduce --check --only lambda-tables\n  eigenring reproduce"
@@ -134,7 +134,8 @@ fn make(entry: &Entry, out: &Path) -> Result<(), Error> {
     })
 }
 
-/// Runs the command that re-checks the files of an entry, if there is one: whether it succeeds, and what it prints.
+/// Runs the command that re-checks the files of an entry, if there is one: whether it succeeds, and what it
+/// prints.
 fn recheck(entry: &Entry, out: &Path) -> Result<Option<(bool, String)>, Error> {
     let Some(words) = entry.checking(out) else {
         return Ok(None);

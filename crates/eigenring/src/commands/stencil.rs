@@ -10,8 +10,9 @@ use std::process::ExitCode;
 
 /// Print the full set of stencil weights at one lambda.
 ///
-/// Without --f2 and --f3 the weights are those of the embedded spline table; where it does not reach (valences above 20,
-/// lambda outside [0.15, 0.9], another s) they are tuned, which is said on standard error, and remembered.
+/// Without --f2 and --f3 the weights are those of the embedded spline table; where it does not reach
+/// (valences above 20, lambda outside [0.15, 0.9], another s) they are tuned, which is said on standard
+/// error, and remembered.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  eigenring stencil -N 6 --lambda 0.55\n  eigenring stencil -N 6 --lambda 0.55 --f2 0.25 --f3 0.2 --format json"

@@ -19,16 +19,18 @@ use std::process::ExitCode;
 
 /// Prove that a scheme is C1, or has bounded curvature, at a valence or over a range of lambda.
 ///
-/// What is certified is the exact scheme: decimals and fractions stand for themselves. Each statement is proven, refuted with
-/// a witness, undecided, or, for weights that are results of rounding, numerical. The exit code is 0 if everything that
-/// is required is proven, and 1 if not. docs/certificates.md says what each statement means and which theorems are used.
+/// What is certified is the exact scheme: decimals and fractions stand for themselves. Each statement is
+/// proven, refuted with a witness, undecided, or, for weights that are results of rounding, numerical. The
+/// exit code is 0 if everything that is required is proven, and 1 if not. docs/certificates.md says what each
+/// statement means and which theorems are used.
 #[derive(Args, Debug)]
 #[command(group = ArgGroup::new("what").required(true).multiple(true))]
 #[command(
     after_help = "Examples:\n  eigenring verify --scheme catmull-clark -N 5\n  eigenring verify --scheme lambda:optimal -N 6 --require strict\n  eigenring verify --lambda-range 0.4..0.6 -N 6 --require strict\n  eigenring verify --scheme catmull-clark -N 3 --format json\n  eigenring verify --scheme catmull-clark -N 7 -o N7.json      (and then: eigenring verify --recheck N7.json)\n  eigenring verify --all                                       rebuilds results/certificates"
 )]
 pub struct Arguments {
-    /// The scheme: see 'eigenring --help'; with --lambda-range its weights f2 and f3 are kept, by default those of the splines
+    /// The scheme: see 'eigenring --help'; with --lambda-range its weights f2 and f3 are kept, by default
+    /// those of the splines
     #[arg(long, value_name = "SPEC", group = "what", conflicts_with_all = ["recheck", "all"])]
     scheme: Option<SchemeName>,
     /// Valence
@@ -40,9 +42,9 @@ pub struct Arguments {
     /// What must be proven
     #[arg(long, value_enum, default_value_t)]
     require: Required,
-    /// Take the weights of a file as they are written: by default the special stencils' sums within 1e-12 of 1, and
-    /// weights that a reflection exchanges (at the centre also a rotation) and that differ by no more, are taken
-    /// for rounded and balanced
+    /// Take the weights of a file as they are written: by default the special stencils' sums within 1e-12 of
+    /// 1, and weights that a reflection exchanges (at the centre also a rotation) and that differ by no more,
+    /// are taken for rounded and balanced
     #[arg(long, conflicts_with_all = ["recheck", "all", "lambda_range"])]
     exact: bool,
     /// Also store the certificate
@@ -51,7 +53,8 @@ pub struct Arguments {
     /// Check a stored certificate again, or all that a folder holds, by its evidence alone
     #[arg(long, value_name = "PATH", group = "what", conflicts_with = "all")]
     recheck: Option<PathBuf>,
-    /// Make the certificates of results/certificates: Catmull-Clark, featured members of the lambda-scheme, and ranges of lambda
+    /// Make the certificates of results/certificates: Catmull-Clark, featured members of the lambda-scheme,
+    /// and ranges of lambda
     #[arg(long, group = "what")]
     all: bool,
     /// With --all: valences of the lambda-scheme

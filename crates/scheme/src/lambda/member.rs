@@ -1,8 +1,9 @@
 //! One scheme of the family: where a name such as `lambda:optimal` becomes weights.
 //!
-//! A [`Member`] is a point of a [`Plane`]. Its weights are given, or come from the embedded table. Where the table does not reach, one
-//! tunes; this crate cannot, so whoever asks for a member hands in a function that is asked for the [`Untabulated`] one. A caller
-//! without a tuner hands in [`Untabulated::refuse`]. So a name means the same to all of them, or is refused.
+//! A [`Member`] is a point of a [`Plane`]. Its weights are given, or come from the embedded table. Where the
+//! table does not reach, one tunes; this crate cannot, so whoever asks for a member hands in a function that
+//! is asked for the [`Untabulated`] one. A caller without a tuner hands in [`Untabulated::refuse`]. So a name
+//! means the same to all of them, or is refused.
 
 use super::{LambdaTable, Plane, Relaxation};
 use crate::{Error, Scalar, Scheme};
@@ -61,8 +62,8 @@ impl Untabulated {
     /// Refuses it, with what is tabulated.
     ///
     /// # Errors
-    /// Always: [`Error::NotTabulated`], [`Error::OutsideSpline`], or [`Error::GivenRelaxation`] where valence and lambda are tabulated
-    /// and the splines belong to the s of the rule.
+    /// Always: [`Error::NotTabulated`], [`Error::OutsideSpline`], or [`Error::GivenRelaxation`] where valence
+    /// and lambda are tabulated and the splines belong to the s of the rule.
     pub fn refuse(self) -> Result<Member, Error> {
         let table = LambdaTable::embedded()?;
         Err(match self {
@@ -93,7 +94,8 @@ fn plane(valence: usize, lambda: f64, s: Option<f64>) -> Result<Plane<f64>, Erro
 }
 
 impl Member {
-    /// The member with given weights, which are taken as they are: what they violate is for an analysis to show.
+    /// The member with given weights, which are taken as they are: what they violate is for an analysis to
+    /// show.
     ///
     /// # Errors
     /// Those of [`Plane::new`] and [`Relaxation::plane`].
@@ -106,7 +108,8 @@ impl Member {
         })
     }
 
-    /// The member at lambda: that of the table where it reaches and s is left to the rule, else what `beyond` gives.
+    /// The member at lambda: that of the table where it reaches and s is left to the rule, else what `beyond`
+    /// gives.
     ///
     /// # Errors
     /// Those of the plane as in [`Member::given`], and those of `beyond`.

@@ -110,7 +110,8 @@ impl Relaxation {
     /// The plane of stencils at lambda and the s that belongs to it.
     ///
     /// # Errors
-    /// [`Error::Lambda`] unless 1/8 < lambda < 1, [`Error::RelaxationRule`] where the rule's mu reaches lambda, as it does at large valences.
+    /// [`Error::Lambda`] unless 1/8 < lambda < 1, [`Error::RelaxationRule`] where the rule's mu reaches lambda, as
+    /// it does at large valences.
     pub fn plane(&self, lambda: f64) -> Result<Plane<f64>, Error> {
         let (valence, s) = (self.valence, self.s(lambda)?);
         if s * lambda < 1.0 {

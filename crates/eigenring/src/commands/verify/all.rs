@@ -1,6 +1,7 @@
 //! `eigenring verify --all`: the stored certificates and their summaries.
 //!
-//! An interrupted run resumes: certificates of ranges, which take longest, are kept below the output folder until all are there.
+//! An interrupted run resumes: certificates of ranges, which take longest, are kept below the output folder
+//! until all are there.
 
 use crate::error::Error;
 use crate::files;
@@ -40,7 +41,8 @@ pub fn make(valences: &[usize], out: &Path) -> Result<(), Error> {
     files::emit(None, table.render(Format::Text).as_bytes())
 }
 
-/// The certificate of a range: what an interrupted run has left of it, if that is of the same curve, or a new one.
+/// The certificate of a range: what an interrupted run has left of it, if that is of the same curve, or a new
+/// one.
 fn prove(range: &Ranged, resume: &Path) -> Result<RangeCertificate, Error> {
     let path = resume.join(&range.file);
     if let Ok(text) = files::read(&path)
