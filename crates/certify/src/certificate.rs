@@ -11,6 +11,7 @@
 //! changes the scheme has the certificate of another scheme, which says so.
 
 use crate::conditions::{self, Facts, Subdominant};
+use crate::document::{Document, tool};
 use crate::levels::levels;
 use crate::map::{self, CurvatureEvidence, Heights, JacobianEvidence, PlaneNet, Sign, WindingEvidence};
 use crate::rows;
@@ -490,12 +491,20 @@ fn corner(net: &PlaneNet<Interval>) -> Option<Check> {
     Some(check.enclosing(found.theta))
 }
 
+impl Document for Certificate {
+    const VERSION: u32 = CERTIFICATE_VERSION;
+
+    fn digest(&mut self) -> &mut String {
+        &mut self.digest
+    }
+}
+
 impl Certificate {
     fn new(input: Input, subject: &Subject, evidence: Evidence, checks: Vec<Check>) -> Self {
         let balance = subject.balance;
-        let mut certificate = Certificate {
+        let certificate = Certificate {
             version: CERTIFICATE_VERSION,
-            tool: format!("eigenring {}", env!("CARGO_PKG_VERSION")),
+            tool: tool(),
             input,
             valence: subject.scheme.valence(),
             degree: subject.scheme.degree(),
@@ -507,17 +516,12 @@ impl Certificate {
             checks,
             digest: String::new(),
         };
-        certificate.digest = certificate.content_digest();
-        certificate
+        certificate.signed()
     }
 
     /// The digest of everything but the digest.
     pub fn content_digest(&self) -> String {
-        let bare = Certificate {
-            digest: String::new(),
-            ..self.clone()
-        };
-        digest(&bare)
+        self.computed_digest()
     }
 
     /// The certificate as indented JSON.
@@ -525,7 +529,15 @@ impl Certificate {
     /// # Errors
     /// [`Error::Syntax`] if a number is not finite, which no certificate of this crate has.
     pub fn to_json(&self) -> Result<String, Error> {
-        to_json(self)
+        self.written()
+    }
+
+    /// The certificate as JSON on one line, a third as long.
+    ///
+    /// # Errors
+    /// As [`Certificate::to_json`].
+    pub fn to_line(&self) -> Result<String, Error> {
+        self.on_one_line()
     }
 
     /// Reads a certificate. Its digest is not looked at here: [`recheck`] reports it.
@@ -533,54 +545,12 @@ impl Certificate {
     /// # Errors
     /// [`Error::Version`] or [`Error::Syntax`].
     pub fn from_json(text: &str) -> Result<Self, Error> {
-        from_json(text, CERTIFICATE_VERSION)
+        Certificate::read(text)
     }
 
     /// What is claimed of a statement.
     pub fn check(&self, statement: Statement) -> Option<&Check> {
         self.checks.iter().find(|check| check.name == statement)
-    }
-}
-
-/// FNV-1a over compact JSON, as 16 hexadecimal digits.
-pub(crate) fn digest(value: &impl Serialize) -> String {
-    let text = serde_json::to_string(value).unwrap_or_default();
-    let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    });
-    format!("{hash:016x}")
-}
-
-pub(crate) fn to_json(value: &impl Serialize) -> Result<String, Error> {
-    let mut text = serde_json::to_string_pretty(value).map_err(syntax)?;
-    text.push('\n');
-    Ok(text)
-}
-
-pub(crate) fn from_json<T: for<'de> Deserialize<'de>>(text: &str, accepted: u32) -> Result<T, Error> {
-    /// Read before the rest, so that another format is named as such.
-    #[derive(Deserialize)]
-    struct Header {
-        version: u32,
-    }
-    let Header { version: found } = serde_json::from_str(text).map_err(syntax)?;
-    if found != accepted {
-        return Err(Error::Version { found, accepted });
-    }
-    serde_json::from_str(text).map_err(syntax)
-}
-
-/// Whether a text is what is written for a certificate: indented, or on one line.
-pub(crate) fn is_written(certificate: &impl Serialize, text: &str) -> Result<bool, Error> {
-    let line = serde_json::to_string(certificate).map_err(syntax)?;
-    Ok(text.strip_suffix('\n') == Some(line.as_str()) || to_json(certificate)? == text)
-}
-
-fn syntax(error: serde_json::Error) -> Error {
-    Error::Syntax {
-        line: error.line(),
-        column: error.column(),
-        message: error.to_string(),
     }
 }
 
@@ -634,7 +604,7 @@ impl Recheck {
 pub fn recheck_text(text: &str) -> Result<(Certificate, Recheck), Error> {
     let certificate = Certificate::from_json(text)?;
     let mut found = recheck(&certificate)?;
-    if !is_written(&certificate, text)? {
+    if !certificate.is_text(text)? {
         let what = "the text is not what is written for the certificate that it holds";
         found.differences.push(Difference::about("text", what));
     }

@@ -10,7 +10,7 @@
 
 use crate::{Error, Interval};
 use eigenring_scheme::families::tension;
-use eigenring_scheme::lambda::{LambdaTable, Plane, Relaxation};
+use eigenring_scheme::lambda::{Member, Plane, Source, Untabulated};
 use eigenring_scheme::user::{Balance, Reading, UserScheme};
 use eigenring_scheme::{Exact, Level, OneRing, Same, Scalar, Scheme, Spec, Taps};
 use serde::{Deserialize, Serialize};
@@ -55,26 +55,24 @@ impl Input {
     /// The input of a spec. For the lambda-scheme the weights are looked up here, so that the input does not depend on the table.
     ///
     /// # Errors
-    /// Those of the spec: parameters out of range, a valence that is not tabulated.
+    /// Those of the spec: parameters out of range, a member of the lambda-scheme that is not tabulated.
     pub fn from_spec(spec: &Spec, valence: usize) -> Result<Self, Error> {
-        let (lambda, s, weights) = match *spec {
-            Spec::LambdaOptimal => (LambdaTable::embedded()?.entry(valence)?.lambda_optimal, None, None),
-            Spec::Lambda { lambda, s, weights } => (lambda, s, weights),
-            _ => return Ok(Input::Family { spec: spec.to_string() }),
-        };
-        let s = match s {
-            Some(s) => s,
-            None => Relaxation::new(valence)?.s(lambda)?,
-        };
-        let (f2, f3) = match weights {
-            Some((f2, f3)) => (f2, Some(f3)),
-            None => {
-                let (f2, f3) = LambdaTable::embedded()?.entry(valence)?.weights(lambda)?;
-                // tabulated weights at valence 4 have f3 = mu, which a double can only come near
-                (f2, (valence != 4).then_some(f3))
-            }
-        };
-        Ok(Input::Lambda { lambda, s, f2, f3 })
+        Ok(match spec.member(valence, Untabulated::refuse)? {
+            Some(member) => Input::member(&member),
+            None => Input::Family { spec: spec.to_string() },
+        })
+    }
+
+    /// The input of a member of the lambda-scheme.
+    pub fn member(member: &Member) -> Self {
+        // at valence 4 f3 is mu; a tabulated or tuned double can only come near
+        let is_mu = member.plane.valence == 4 && member.source != Source::Given;
+        Input::Lambda {
+            lambda: member.plane.lambda,
+            s: member.plane.s,
+            f2: member.f2,
+            f3: (!is_mu).then_some(member.f3),
+        }
     }
 
     /// The input of one-ring weights in doubles.

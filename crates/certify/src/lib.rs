@@ -10,6 +10,7 @@
 
 mod certificate;
 mod conditions;
+mod document;
 mod error;
 pub mod exact;
 pub mod find;

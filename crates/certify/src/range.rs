@@ -19,7 +19,7 @@ mod conditions;
 mod net;
 pub mod point;
 
-use crate::certificate::{digest, from_json, is_written, to_json};
+use crate::document::{Document, tool};
 use crate::map::{self, JacobianEvidence, WindingEvidence};
 use crate::{Centred, Error, Interval, Requirement, Statement, Status, Witness};
 use eigenring_scheme::lambda::{LambdaKnots, LambdaTable, Relaxation};
@@ -293,17 +293,16 @@ fn map_statuses(
 pub fn prove_range(valence: usize, curve: Curve, lambda: [f64; 2], limits: Limits) -> Result<RangeCertificate, Error> {
     let problem = Problem::new(valence, &curve, lambda)?;
     let tiles = Group::ALL.map(|group| (group, cover(&problem, group, lambda, limits)));
-    let mut certificate = RangeCertificate {
+    let certificate = RangeCertificate {
         version: RANGE_VERSION,
-        tool: format!("eigenring {}", env!("CARGO_PKG_VERSION")),
+        tool: tool(),
         valence,
         curve,
         lambda,
         tiles: tiles.into(),
         digest: String::new(),
     };
-    certificate.digest = certificate.content_digest();
-    Ok(certificate)
+    Ok(certificate.signed())
 }
 
 /// Bisects until every tile is decided, or as small as the limits say.
@@ -343,14 +342,18 @@ fn cover(problem: &Problem, group: Group, [start, end]: [f64; 2], limits: Limits
     tiles
 }
 
+impl Document for RangeCertificate {
+    const VERSION: u32 = RANGE_VERSION;
+
+    fn digest(&mut self) -> &mut String {
+        &mut self.digest
+    }
+}
+
 impl RangeCertificate {
     /// The digest of everything but the digest.
     pub fn content_digest(&self) -> String {
-        let bare = RangeCertificate {
-            digest: String::new(),
-            ..self.clone()
-        };
-        digest(&bare)
+        self.computed_digest()
     }
 
     /// The certificate as indented JSON.
@@ -358,7 +361,15 @@ impl RangeCertificate {
     /// # Errors
     /// [`Error::Syntax`] if a number is not finite, which no certificate of this crate has.
     pub fn to_json(&self) -> Result<String, Error> {
-        to_json(self)
+        self.written()
+    }
+
+    /// The certificate as JSON on one line, a third as long.
+    ///
+    /// # Errors
+    /// As [`RangeCertificate::to_json`].
+    pub fn to_line(&self) -> Result<String, Error> {
+        self.on_one_line()
     }
 
     /// Reads a certificate; its digest is looked at by [`recheck_range`].
@@ -366,7 +377,7 @@ impl RangeCertificate {
     /// # Errors
     /// [`Error::Version`] or [`Error::Syntax`].
     pub fn from_json(text: &str) -> Result<Self, Error> {
-        from_json(text, RANGE_VERSION)
+        RangeCertificate::read(text)
     }
 
     /// The maximal intervals on which a statement has one status; empty for a statement without tiles.
@@ -501,7 +512,7 @@ impl RangeRecheck {
 pub fn recheck_range_text(text: &str) -> Result<(RangeCertificate, RangeRecheck), Error> {
     let certificate = RangeCertificate::from_json(text)?;
     let mut found = recheck_range(&certificate)?;
-    found.intact &= is_written(&certificate, text)?;
+    found.intact &= certificate.is_text(text)?;
     Ok((certificate, found))
 }
 

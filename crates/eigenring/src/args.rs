@@ -1,7 +1,10 @@
 //! Arguments that several commands share.
 
-use crate::table::Format;
+use crate::progress::Terminal;
 use clap::{Args, ValueEnum};
+use eigenring_atlas::cache::Cache;
+use eigenring_atlas::schemes::Tuner;
+use eigenring_atlas::table::Format;
 use eigenring_scheme::lambda::Bounds;
 use eigenring_tune::objective::{Normalisation, Settings};
 use eigenring_tune::search::Starts;
@@ -9,8 +12,8 @@ use eigenring_tune::sweep::Options;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
-/// The largest valence the command takes. Local matrices grow with the square of the valence, and nothing beyond is met in
-/// practice.
+/// The largest valence the command takes. Local matrices grow with the square of the valence, and nothing
+/// beyond is met in practice.
 pub const MAX_VALENCE: usize = 1000;
 
 /// The default margin, that of [`Options`], as it is printed in help texts.
@@ -22,7 +25,8 @@ pub fn valence(text: &str) -> Result<usize, String> {
     valence.ok_or_else(|| format!("accepted is 3 to {MAX_VALENCE}"))
 }
 
-/// Reads a number. Its range, which may depend on other arguments, is for the command to check, and so is NaN.
+/// Reads a number. Its range, which may depend on other arguments, is for the command to check, and so is
+/// NaN.
 pub fn number(text: &str) -> Result<f64, String> {
     text.parse().map_err(|_| "accepted is a number such as 0.55".to_owned())
 }
@@ -43,7 +47,41 @@ pub fn count(text: &str) -> Result<usize, String> {
 pub struct Output {
     /// How results are printed
     #[arg(long, value_enum, default_value_t)]
-    pub format: Format,
+    format: FormatArg,
+}
+
+/// See [`Format`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum FormatArg {
+    /// Columns for people; numbers to ten digits.
+    #[default]
+    Text,
+    /// One JSON value, full precision.
+    Json,
+    /// Comma-separated values with a header, full precision.
+    Csv,
+    /// A LaTeX tabular; numbers to ten digits.
+    Latex,
+}
+
+impl Output {
+    /// The format that was chosen.
+    pub fn format(&self) -> Format {
+        match self.format {
+            FormatArg::Text => Format::Text,
+            FormatArg::Json => Format::Json,
+            FormatArg::Csv => Format::Csv,
+            FormatArg::Latex => Format::Latex,
+        }
+    }
+}
+
+/// Finds schemes for users: with their cache, and with notes and bars on the terminal.
+pub fn tuner() -> Tuner<'static> {
+    Tuner {
+        cache: Cache::of_user(),
+        progress: &Terminal,
+    }
 }
 
 /// A list of valences: "5", "3..20" (both ends included), "3,5,8..10".

@@ -1,11 +1,13 @@
 //! Samples of an unfinished sweep, so that it can be resumed after any interruption.
 //!
-//! One file a valence: a first line with the parameters, then one line for each finished sample, in whatever order they were
-//! finished. A line that was cut off is dropped; a file with other parameters is started anew. Numbers are written so that they
-//! read back to the same bits, and samples do not depend on each other: a resumed sweep gives the same results.
+//! One file a valence: a first line with the parameters, then one line for each finished sample, in whatever
+//! order they were finished. A line that was cut off is dropped; a file with other parameters is started
+//! anew. Numbers are written so that they read back to the same bits, and samples do not depend on each
+//! other: a resumed sweep gives the same results.
 
-use crate::error::Error;
 use crate::files;
+use eigenring_atlas::Error;
+use eigenring_atlas::run::{Kept, Parameters};
 use eigenring_tune::sweep::Sample;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -71,6 +73,37 @@ impl Checkpoint {
         // a poisoned lock means that another thread panicked while writing; its line is dropped on resumption
         let mut file = self.file.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         file.write_all(line.as_bytes()).map_err(failed)
+    }
+}
+
+/// The samples of a run, one file a valence.
+#[derive(Debug)]
+pub struct Checkpoints(BTreeMap<usize, Checkpoint>);
+
+impl Checkpoints {
+    /// Opens or starts the files of a run.
+    pub fn open(folder: &Path, parameters: &Parameters) -> Result<Self, Error> {
+        let key = parameters.sample_key();
+        let of = |&valence: &usize| Ok((valence, Checkpoint::open(folder, valence, &key)?));
+        parameters
+            .valences
+            .iter()
+            .map(of)
+            .collect::<Result<_, Error>>()
+            .map(Checkpoints)
+    }
+}
+
+impl Kept for Checkpoints {
+    fn get(&self, valence: usize, lambda: f64) -> Option<Sample> {
+        self.0.get(&valence)?.get(lambda).cloned()
+    }
+
+    fn add(&self, sample: &Sample) -> Result<(), Error> {
+        match self.0.get(&sample.valence) {
+            Some(checkpoint) => checkpoint.add(sample),
+            None => Ok(()),
+        }
     }
 }
 

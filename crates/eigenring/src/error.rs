@@ -1,44 +1,15 @@
 //! Why a command fails, and how it is said: one line, exit code 2.
 
-use std::path::PathBuf;
+use eigenring_atlas::accepted_in;
 
 /// Everything that can go wrong, with the offending values.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
+    /// What was asked for cannot be computed, read or written.
     #[error(transparent)]
-    Scheme(#[from] eigenring_scheme::Error),
-    #[error(transparent)]
-    Spline(#[from] eigenring_spline::Error),
-    #[error(transparent)]
-    Spectral(#[from] eigenring_spectral::Error),
-    #[error(transparent)]
-    Objective(#[from] eigenring_tune::objective::Error),
-    #[error(transparent)]
-    Search(#[from] eigenring_tune::search::Error),
-    #[error(transparent)]
-    Sweep(#[from] eigenring_tune::sweep::Error),
-    #[error(transparent)]
-    Study(#[from] eigenring_tune::study::Error),
-    #[error(transparent)]
-    Figure(#[from] eigenring_figure::Error),
-    #[error(transparent)]
-    Certify(#[from] eigenring_certify::Error),
-    #[error("cannot read {}: {source}", path.display())]
-    Read { path: PathBuf, source: std::io::Error },
-    #[error("cannot write {}: {source}", path.display())]
-    Write { path: PathBuf, source: std::io::Error },
+    Atlas(#[from] eigenring_atlas::Error),
     #[error("cannot write to standard output: {0}")]
     Output(#[source] std::io::Error),
-    #[error("{}: {message}", path.display())]
-    BadFile { path: PathBuf, message: String },
-    #[error("{what} {given} is out of range: accepted is {accepted}")]
-    Range {
-        what: &'static str,
-        given: String,
-        accepted: String,
-    },
-    #[error("{message}: accepted is {accepted}")]
-    Usage { message: String, accepted: String },
     #[error("cannot start this program again: {0}")]
     Start(#[source] std::io::Error),
     #[error("'{command}' failed: {message}")]
@@ -48,18 +19,60 @@ pub enum Error {
     CommandLine(String),
 }
 
+impl From<eigenring_certify::Error> for Error {
+    fn from(error: eigenring_certify::Error) -> Self {
+        Error::Atlas(error.into())
+    }
+}
+
+impl From<eigenring_figure::Error> for Error {
+    fn from(error: eigenring_figure::Error) -> Self {
+        Error::Atlas(error.into())
+    }
+}
+
+impl From<eigenring_scheme::Error> for Error {
+    fn from(error: eigenring_scheme::Error) -> Self {
+        Error::Atlas(error.into())
+    }
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 impl Error {
-    /// The message on one line.
-    pub fn line(&self) -> String {
-        self.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
+    /// A combination of arguments that makes no sense.
+    pub fn usage(message: impl Into<String>, accepted: impl Into<String>) -> Self {
+        Error::Atlas(eigenring_atlas::Error::Usage {
+            message: message.into(),
+            accepted: accepted.into(),
+        })
     }
 
-    /// The accepted values, which every message about a value out of range ends with.
+    /// An argument out of range.
+    pub fn range(what: &'static str, given: impl ToString, accepted: impl Into<String>) -> Self {
+        Error::Atlas(eigenring_atlas::Error::Range {
+            what,
+            given: given.to_string(),
+            accepted: accepted.into(),
+        })
+    }
+
+    /// The message on one line.
+    pub fn line(&self) -> String {
+        one_line(&self.to_string())
+    }
+
+    /// The accepted values, with which every message about a value out of range ends.
     pub fn accepted(&self) -> Option<String> {
-        let line = self.line();
-        let (_, accepted) = line.rsplit_once("accepted ")?;
-        let accepted = accepted.trim_start_matches("is ").trim_start_matches("are ");
-        Some(accepted.to_owned())
+        let accepted = match self {
+            Error::Atlas(error) => error.accepted(),
+            // the parser has sentences only, and so has a command that was run
+            Error::CommandLine(_) | Error::Rebuild { .. } => accepted_in(&self.line()),
+            Error::Output(_) | Error::Start(_) => None,
+        };
+        accepted.map(|accepted| one_line(&accepted))
     }
 
     /// `{error, accepted}` for programs.

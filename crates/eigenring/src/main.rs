@@ -1,25 +1,16 @@
 //! The eigenring command.
 //!
-//! Each module of `commands` is one subcommand: its arguments and what it does. `table` and `files` put results out, `schemes`
-//! finds schemes by name, `run` computes what is tabulated and `results` puts it into files. Exit codes: 0 done or proven, 1 refuted or
-//! different, 2 bad input.
+//! Each module of `commands` is one subcommand: its arguments, and where the results go. What is computed is
+//! a function of `eigenring-atlas`, which is told of arguments as plain values and knows nothing of command
+//! lines, terminals and exit codes. Exit codes: 0 done or proven, 1 refuted or different, 2 bad input.
 
 mod args;
-mod cache;
 mod checkpoint;
 mod command_line;
 mod commands;
-mod compare;
 mod error;
-mod figures;
 mod files;
-mod index;
 mod progress;
-mod results;
-mod run;
-mod schemes;
-mod table;
-mod tension;
 
 use clap::Parser;
 use error::Error;

@@ -27,6 +27,29 @@ pub enum Error {
         /// The lambda it was given for.
         lambda: f64,
     },
+    /// The rule for s asks for a mu that is not below lambda: what is out of range is the valence, and not an s that was given.
+    #[error(
+        "at N = {valence}, lambda = {lambda} the rule for s gives {s}, which is not below 1/lambda = {}: accepted is a smaller valence",
+        1.0 / lambda
+    )]
+    RelaxationRule {
+        /// The valence.
+        valence: usize,
+        /// The subdominant eigenvalue.
+        lambda: f64,
+        /// What the rule gives.
+        s: f64,
+    },
+    /// The lambda-scheme is tabulated for the s of its rule only.
+    #[error(
+        "with s = {s} no weights are tabulated at N = {valence}: accepted are f2 and f3 beside s, or s by its rule"
+    )]
+    GivenRelaxation {
+        /// The valence.
+        valence: usize,
+        /// The relaxation.
+        s: f64,
+    },
     /// A table counts its terms in 32 bits.
     #[error("a table of {terms} terms: accepted are up to {maximum}")]
     TableSize {

@@ -4,7 +4,7 @@
 //! `tension:order=6,u0=2`. [`registry`] lists the families; every scheme of it is tested, by a test that walks the registry.
 
 use crate::families::{catmull_clark, doo_sabin, tension};
-use crate::lambda::{LambdaTable, Plane, Relaxation};
+use crate::lambda::{Member, Untabulated};
 use crate::{Error, Exact, Scalar, Scheme};
 use std::fmt;
 use std::str::FromStr;
@@ -84,9 +84,9 @@ pub enum Spec {
     Lambda {
         /// The subdominant eigenvalue.
         lambda: f64,
-        /// The relaxation, by the rule of [`Relaxation`] if not given.
+        /// The relaxation, by the rule of [`Relaxation`](crate::lambda::Relaxation) if not given.
         s: Option<f64>,
-        /// (f2, f3), from the embedded table if not given.
+        /// (f2, f3); if not given, those of the embedded table, which belong to the s of the rule.
         weights: Option<(f64, f64)>,
     },
     /// The generalised tension scheme.
@@ -112,23 +112,35 @@ impl Spec {
     /// The scheme around a centre of the given valence.
     ///
     /// # Errors
-    /// Those of the family: valence or parameters out of range, a valence that is not tabulated.
+    /// Those of the family: valence or parameters out of range; those of [`Untabulated::refuse`] for weights that
+    /// would have to be tuned.
     pub fn scheme<S: Scalar + Copy>(&self, valence: usize) -> Result<Scheme<S>, Error> {
-        if let Some(scheme) = self.closed_form(valence) {
-            return scheme;
+        match self.member(valence, Untabulated::refuse)? {
+            Some(member) => member.scheme(self.to_string()),
+            None => self
+                .closed_form(valence)
+                .expect("every family but the lambda-scheme has a closed form"),
         }
-        let (plane, f2, f3) = self.lambda_point(valence)?;
-        let exact = |value| S::exact(value);
-        let plane = Plane {
-            valence,
-            lambda: exact(plane.lambda),
-            s: exact(plane.s),
-            phi: exact(plane.phi),
-        };
-        plane
-            .stencil(exact(f2), exact(f3))
-            .weights
-            .scheme(self.to_string(), valence)
+    }
+
+    /// The member of the lambda-scheme that is named; `None` for another family. `beyond` is asked for what the
+    /// embedded table does not hold: a tuner, or [`Untabulated::refuse`].
+    ///
+    /// # Errors
+    /// Those of [`Member::given`], [`Member::at`] and [`Member::optimal`], and those of `beyond`.
+    pub fn member<E: From<Error>>(
+        &self,
+        valence: usize,
+        beyond: impl FnOnce(Untabulated) -> Result<Member, E>,
+    ) -> Result<Option<Member>, E> {
+        match *self {
+            Spec::LambdaOptimal => Member::optimal(valence, beyond).map(Some),
+            Spec::Lambda { lambda, s, weights } => match weights {
+                Some((f2, f3)) => Ok(Some(Member::given(valence, lambda, s, [f2, f3])?)),
+                None => Member::at(valence, lambda, s, beyond).map(Some),
+            },
+            _ => Ok(None),
+        }
     }
 
     /// The scheme in exact numbers; `None` for the lambda-scheme, whose weights are no [`Exact`] numbers.
@@ -161,24 +173,6 @@ impl Spec {
             Spec::Morin { u0 } => Some((4, u0)),
             _ => None,
         }
-    }
-
-    /// The plane and the weights (f2, f3) of a lambda-scheme.
-    fn lambda_point(&self, valence: usize) -> Result<(Plane<f64>, f64, f64), Error> {
-        let (lambda, s, weights) = match *self {
-            Spec::Lambda { lambda, s, weights } => (lambda, s, weights),
-            _ => (LambdaTable::embedded()?.entry(valence)?.lambda_optimal, None, None),
-        };
-        let s = match s {
-            Some(s) => s,
-            None => Relaxation::new(valence)?.s(lambda)?,
-        };
-        let plane = Plane::new(valence, lambda, s)?;
-        let (f2, f3) = match weights {
-            Some(weights) => weights,
-            None => LambdaTable::embedded()?.entry(valence)?.weights(lambda)?,
-        };
-        Ok((plane, f2, f3))
     }
 }
 

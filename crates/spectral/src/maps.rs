@@ -9,7 +9,7 @@
 //! All maps here have `E_0 = 1` (the cup too, the face mode `F_0 = 1`): other normalisations are factors. z as a function of
 //! (x, y) has the derivatives of [`Graph`], by the chain rule through the Jacobian.
 
-use crate::{Annulus, Error, LocalSystem, Mode, PatchIndex};
+use crate::{Annulus, Error, LocalSystem, Mode, Natural, PatchIndex};
 use eigenring_scheme::Scheme;
 use eigenring_spline::Jet;
 
@@ -112,8 +112,10 @@ impl Maps {
                 .collect())
         };
         let missing = |fourier| Error::Scaling { value: 0.0, fourier };
-        let lambda = *eigenvalues(1)?.first().ok_or(missing(1))?;
-        let configuration = system.single(1, lambda)?;
+        let Natural {
+            lambda,
+            points: natural,
+        } = system.natural()?;
         let cup_value = *eigenvalues(0)?.get(1).ok_or(missing(0))?;
         let cup = system.single(0, cup_value)?;
         let (saddles, saddle_values) = match n {
@@ -142,7 +144,7 @@ impl Maps {
         Ok(Maps {
             annulus,
             lambda,
-            natural: [real(&configuration), imaginary(&configuration)],
+            natural,
             mu: [cup_value, saddle_values[0], saddle_values[1]],
             second_order: [real(&cup), re, im],
         })

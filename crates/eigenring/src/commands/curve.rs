@@ -1,32 +1,27 @@
 //! `eigenring curve`: refinement of control points, with the limit and a picture.
 
-mod example;
-mod levels;
-mod picture;
-mod points;
-mod surface;
-
-pub use example::Example;
-
 use super::plot::Size;
 use crate::args::{self, Output};
 use crate::error::Error;
 use crate::files;
 use crate::progress::note;
-use crate::table::{Format, Record, Table, pretty};
-use clap::Args;
+use clap::builder::PossibleValue;
+use clap::{Args, ValueEnum};
+use eigenring_atlas::Accepted;
+use eigenring_atlas::curve::{Exact, Example, parse, refine, revolve};
+use eigenring_atlas::table::{Format, Record, Table, pretty};
 use eigenring_figure::{Figure, Width};
-use eigenring_spline::curve::{Curve, Ends, Grid, MAX_ORDER};
-use example::{Exact, MOST};
+use eigenring_spline::curve::{Curve, Ends, MAX_ORDER};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Refine the control points of a curve of any order with tension, and draw it.
 ///
-/// POINTS is a CSV file: a point a line, one coordinate or more, with or without a header. The refined points of the last level
-/// go to standard output, or with -o into a file; columns are level, parameter, and x, y, z (x1, x2, ... beyond three).
-/// An open curve belongs to the middle of its polygon: it does not reach the first and the last control point.
+/// POINTS is a CSV file: a point a line, one coordinate or more, with or without a header. The refined points
+/// of the last level go to standard output, or with -o into a file; columns are level, parameter, and x, y, z
+/// (x1, x2, ... beyond three). An open curve belongs to the middle of its polygon: it does not reach the
+/// first and the last control point.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  eigenring curve --example circle --count 4 --order 3    four points, an exact circle\n  eigenring curve --example fang-fig1 --levels 4 -o refined.csv --limit limit.csv --plot curve.svg\n  eigenring curve --example ellipse --levels 1 --format json\n  eigenring curve --example hyperbola --revolve --segments 6 --obj hyperboloid.obj --plot hyperboloid.png\nWith points of your own: eigenring curve points.csv --order 4 --u0 10 --closed --plot curve.png"
@@ -35,9 +30,10 @@ pub struct Arguments {
     /// The control points
     #[arg(value_name = "POINTS.csv", required_unless_present = "example")]
     points: Option<PathBuf>,
-    /// A built-in curve that its control points give exactly; the largest distance of the limit from it is reported
+    /// A built-in curve that its control points give exactly; the largest distance of the limit from it is
+    /// reported
     #[arg(long, value_enum, value_name = "NAME", conflicts_with_all = ["points", "closed", "open"])]
-    example: Option<Example>,
+    example: Option<ExampleArg>,
     /// Order k, 3 to 32: degree k-1 if u0 = 1; by default 4, or the example's own
     #[arg(long, value_name = "K", value_parser = order, allow_negative_numbers = true)]
     order: Option<usize>,
@@ -77,7 +73,8 @@ pub struct Arguments {
     /// Width of the picture: one printed column (85 mm) or two (178 mm)
     #[arg(long, value_enum, default_value = "one")]
     size: Size,
-    /// Turn the curve around the z axis; two coordinates are radius and height. Columns are level, u, v, x, y, z
+    /// Turn the curve around the z axis; two coordinates are radius and height. Columns are level, u, v, x,
+    /// y, z
     #[arg(long)]
     revolve: bool,
     /// Control points around the axis, up to 64
@@ -90,11 +87,28 @@ pub struct Arguments {
     output: Output,
 }
 
-/// The most points that a table of one level or of the limit holds: beyond, it would be hundreds of megabytes of text.
-const MOST_POINTS: usize = 1 << 20;
+/// See [`Example`].
+#[derive(Clone, Copy, Debug)]
+struct ExampleArg(Example);
 
-/// The fewest pieces of a drawn limit: then they are too short for corners to be seen.
-const SMOOTH: usize = 512;
+impl ValueEnum for ExampleArg {
+    fn value_variants<'a>() -> &'a [Self] {
+        const ALL: [ExampleArg; Example::ALL.len()] = {
+            let mut all = [ExampleArg(Example::Circle); Example::ALL.len()];
+            let mut index = 0;
+            while index < all.len() {
+                all[index] = ExampleArg(Example::ALL[index]);
+                index += 1;
+            }
+            all
+        };
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.0.name()).help(self.0.summary()))
+    }
+}
 
 fn order(text: &str) -> Result<usize, String> {
     let order = text.parse().ok().filter(|order| (3..=MAX_ORDER).contains(order));
@@ -120,7 +134,7 @@ impl Arguments {
         for (path, contents) in &found.files {
             files::write(path, contents)?;
         }
-        let format = self.output.format;
+        let format = self.output.format();
         let printed = match (&self.out, format) {
             (Some(path), _) => {
                 files::write(path, found.points.render(Format::Csv).as_bytes())?;
@@ -144,17 +158,17 @@ impl Arguments {
         let written: Vec<&PathBuf> = written.into_iter().flatten().collect();
         for (index, path) in written.iter().enumerate() {
             if written[..index].contains(path) {
-                return Err(Error::Usage {
-                    message: format!("{} is named twice", path.display()),
-                    accepted: "a file of its own for each output".to_owned(),
-                });
+                return Err(Error::usage(
+                    format!("{} is named twice", path.display()),
+                    "a file of its own for each output",
+                ));
             }
         }
         match &self.plot {
-            Some(path) if !is(path, "svg") && !is(path, "png") => Err(Error::Usage {
-                message: format!("picture {}", path.display()),
-                accepted: "a name that ends with .svg or .png".to_owned(),
-            }),
+            Some(path) if !is(path, "svg") && !is(path, "png") => Err(Error::usage(
+                format!("picture {}", path.display()),
+                "a name that ends with .svg or .png",
+            )),
             _ => Ok(()),
         }
     }
@@ -162,19 +176,16 @@ impl Arguments {
     /// The curve that is asked for, and its functions if it is an example.
     fn curve(&self) -> Result<(Curve, Option<Exact>), Error> {
         let path = match (&self.points, self.example) {
-            (_, Some(example)) => {
+            (_, Some(ExampleArg(example))) => {
                 let (curve, exact) = example.curve(self.order, self.u0, self.count)?;
                 return Ok((curve, Some(exact)));
             }
             (Some(path), None) => path,
             (None, None) => {
-                return Err(Error::Usage {
-                    message: "no points are given".to_owned(),
-                    accepted: "a file of points, or --example".to_owned(),
-                });
+                return Err(Error::usage("no points are given", "a file of points, or --example"));
             }
         };
-        let points = points::read(path)?;
+        let points = parse(&files::read(path)?).map_err(|error| error.in_file(path))?;
         let ends = if self.closed { Ends::Closed } else { Ends::Open };
         if self.closed && points.len() > 1 && points.first() == points.last() {
             note("the last point is the first again, which a closed polygon has twice then");
@@ -182,118 +193,62 @@ impl Arguments {
         let order = self.order.unwrap_or(4);
         let curve = Curve::new(order, self.u0.unwrap_or(1.0), ends, &points).map_err(|error| match error {
             // what is wrong with the file, and not with the options
-            eigenring_spline::Error::ControlPoints { .. } => Error::BadFile {
-                path: path.clone(),
-                message: match ends {
-                    Ends::Open => format!("{error} (open, order {order})"),
-                    Ends::Closed => error.to_string(),
-                },
-            },
+            eigenring_spline::Error::ControlPoints {
+                count,
+                minimum,
+                maximum,
+            } if ends == Ends::Open => {
+                let accepted = Accepted::Are(format!("{minimum} to {maximum} here (open, order {order})"));
+                let reason = eigenring_atlas::Error::refused(format!("{count} control points"), accepted);
+                Error::from(reason.in_file(path))
+            }
+            eigenring_spline::Error::ControlPoints { .. } => eigenring_atlas::Error::from(error).in_file(path).into(),
             other => other.into(),
         })?;
         Ok((curve, None))
     }
 
-    fn summary(&self, curve: &Curve, levels: u32) -> Record {
-        let axis = curve.axis();
-        let (from, to) = axis.domain();
-        Record::default()
-            .with("order", axis.order())
-            .with("u0", axis.tension().value())
-            .with("ends", if axis.ends() == Ends::Closed { "closed" } else { "open" })
-            .with("control_points", axis.count())
-            .with("coordinates", curve.dimension())
-            .with("from", from)
-            .with("to", to)
-            .with("levels", levels as usize)
-    }
-
-    /// Adds how far the limit is from the exact curve, in the formats of tables on standard error.
-    fn deviation(&self, summary: Record, distances: impl Iterator<Item = f64>) -> Record {
-        let deviation = distances.fold(0.0, f64::max);
-        if self.out.is_none() && matches!(self.output.format, Format::Csv | Format::Latex) {
+    /// Says how far the limit is from the exact curve where the tables on standard output have no place for
+    /// it.
+    fn note_deviation(&self, deviation: Option<f64>) {
+        if let Some(deviation) = deviation
+            && self.out.is_none()
+            && matches!(self.output.format(), Format::Csv | Format::Latex)
+        {
             note(&format!("the limit is within {deviation:.2e} of the exact one"));
         }
-        summary.with("deviation", deviation)
     }
 
     fn refined(&self, curve: &Curve, exact: Option<&Exact>) -> Result<Found, Error> {
-        let count = levels::check(self.levels, |level| levels::count_after(curve.axis(), level))?;
-        levels::check_samples(self.samples, curve.axis().intervals())?;
-        let mut levels = vec![curve.clone()];
-        for level in 0..count as usize {
-            levels.push(levels[level].refine()?);
-        }
-        let mut summary = self.summary(curve, count);
+        let refined = refine(curve, exact, self.levels, self.samples)?;
+        self.note_deviation(refined.deviation);
         let mut files = Vec::new();
-        let limit = match self.limit.is_some() || exact.is_some() {
-            true => curve.sample(self.samples)?,
-            false => Vec::new(),
-        };
-        if let Some(exact) = exact {
-            let distances = limit.iter().map(|(t, point)| distance(point, &exact.at(*t)));
-            summary = self.deviation(summary, distances);
-        }
         if let Some(path) = &self.limit {
-            files.push((path.clone(), levels::limit(&limit).render(Format::Csv).into_bytes()));
+            files.push((path.clone(), refined.limit()?.render(Format::Csv).into_bytes()));
         }
         if let Some(path) = &self.plot {
-            let smooth = curve.sample(self.samples.max(SMOOTH.div_ceil(curve.axis().intervals())))?;
-            let figure = picture::figure(&levels, &smooth, self.width(), &title(curve))?;
-            files.push((path.clone(), self.picture(path, &figure)?));
+            files.push((path.clone(), self.picture(path, &refined.figure(self.width())?)?));
         }
-        let shown = if self.all_levels { 0 } else { count as usize };
         Ok(Found {
-            summary,
-            points: levels::points(&levels[shown..]),
+            summary: refined.summary(),
+            points: refined.points(self.all_levels),
             files,
         })
     }
 
     fn surface(&self, curve: &Curve, exact: Option<&Exact>) -> Result<Found, Error> {
-        let segments = self.segments;
-        if !(3..=MOST).contains(&segments) {
-            return Err(Error::Range {
-                what: "number of segments",
-                given: segments.to_string(),
-                accepted: format!("3 to {MOST}"),
-            });
-        }
-        let grid = surface::revolved(curve, segments)?;
-        let (u, v) = (grid.u(), grid.v());
-        let count = levels::check(self.levels, |level| {
-            levels::count_after(u, level) * levels::count_after(v, level)
-        })?;
-        levels::check_samples(self.samples, u.intervals().saturating_mul(v.intervals()))?;
-        let mut levels: Vec<Grid> = vec![grid.clone()];
-        for level in 0..count as usize {
-            levels.push(levels[level].refine()?);
-        }
-        let mut summary = self.summary(curve, count).with("segments", segments);
-        if let Some(exact) = exact {
-            let (s, t) = (u.samples(self.samples)?, v.samples(self.samples)?);
-            let rows = grid.sample(self.samples)?;
-            let distances = rows.iter().zip(&s).flat_map(|(row, (s, _))| {
-                let point = exact.at(*s);
-                row.iter()
-                    .zip(&t)
-                    .map(move |(found, (t, _))| distance(found, &surface::turned(&point, segments, *t)))
-            });
-            summary = self.deviation(summary, distances);
-        }
+        let revolved = revolve(curve, exact, self.segments, self.levels, self.samples)?;
+        self.note_deviation(revolved.deviation);
         let mut files = Vec::new();
-        if let (Some(path), Some(last)) = (&self.obj, levels.last()) {
-            files.push((path.clone(), surface::obj(last).into_bytes()));
+        if let Some(path) = &self.obj {
+            files.push((path.clone(), revolved.obj().into_bytes()));
         }
         if let Some(path) = &self.plot {
-            let title = format!("{}, {segments} segments", title(curve));
-            let figure = surface::figure(&grid, self.samples, self.width(), &title)?;
-            files.push((path.clone(), self.picture(path, &figure)?));
+            files.push((path.clone(), self.picture(path, &revolved.figure(self.width())?)?));
         }
-        let shown = if self.all_levels { 0 } else { count as usize };
         Ok(Found {
-            summary,
-            points: surface::points(&levels[shown..]),
+            summary: revolved.summary(),
+            points: revolved.points(self.all_levels),
             files,
         })
     }
@@ -316,13 +271,4 @@ impl Arguments {
 fn is(path: &Path, extension: &str) -> bool {
     path.extension()
         .is_some_and(|found| found.eq_ignore_ascii_case(extension))
-}
-
-fn title(curve: &Curve) -> String {
-    let u0 = (curve.axis().tension().value() * 1e4).round() / 1e4;
-    format!("order {}, $u_0$ = {u0}", curve.axis().order()).replace('-', "−")
-}
-
-fn distance(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
 }

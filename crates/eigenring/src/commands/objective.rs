@@ -3,17 +3,17 @@
 use crate::args::{self, ObjectiveArgs, Output};
 use crate::error::Error;
 use crate::files;
-use crate::schemes::Point;
-use crate::table::{Format, Record, Table, pretty};
 use clap::Args;
-use eigenring_tune::objective::Objective;
+use eigenring_atlas::schemes::feasible;
+use eigenring_atlas::stencil::objective;
+use eigenring_atlas::table::{Format, pretty};
 use serde_json::Value;
 use std::process::ExitCode;
 
 /// Evaluate the objective E, its three parts and the curvature extremes at one stencil.
 ///
-/// gauss_min and gauss_max are the extremes of z_xx z_yy - z_xy^2 over the Gauss points, unsigned; sign_change is K_m, which is
-/// zero if no second-order map changes the sign of its curvature.
+/// gauss_min and gauss_max are the extremes of z_xx z_yy - z_xy^2 over the Gauss points, unsigned;
+/// sign_change is K_m, which is zero if no second-order map changes the sign of its curvature.
 #[derive(Args, Debug)]
 #[command(after_help = "Example:\n  eigenring objective -N 6 --lambda 0.55 --f2 0.25 --f3 0.2")]
 pub struct Arguments {
@@ -40,29 +40,10 @@ pub struct Arguments {
 
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
-        let valence = self.valence;
-        let point = Point::given(valence, self.lambda, self.s, self.objective.phi, self.f2, self.f3)?;
-        let objective = Objective::new(point.plane, self.objective.settings())?;
-        let parts = objective.parts(point.f2, point.f3)?;
-        let head = Record::default()
-            .with("valence", valence)
-            .with("lambda", point.plane.lambda)
-            .with("s", point.plane.s)
-            .with("f2", point.f2)
-            .with("f3", point.f3)
-            .with("total", parts.total())
-            .with("sign_change", parts.sign_change());
-        let mut table = Table::new(["map", "value", "a", "b", "c", "gauss_min", "gauss_max"]);
-        for (name, part) in [
-            ("cup", parts.cup),
-            ("saddle_re", parts.saddle_re),
-            ("saddle_im", parts.saddle_im),
-        ] {
-            let numbers = [part.value, part.a, part.b, part.c, part.gauss_min, part.gauss_max];
-            let cells = std::iter::once(name.into()).chain(numbers.map(Into::into));
-            table.push(cells.collect());
-        }
-        let text = match self.output.format {
+        let weights = [self.f2, self.f3];
+        let member = feasible(self.valence, self.lambda, self.s, self.objective.phi, weights)?;
+        let (head, table) = objective(&member, self.objective.settings())?;
+        let text = match self.output.format() {
             Format::Json => {
                 let mut object = head.json();
                 object.insert("parts".to_owned(), table.json());

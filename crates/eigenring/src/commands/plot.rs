@@ -2,24 +2,24 @@
 
 use crate::args::{self, Valences};
 use crate::error::Error;
-use crate::figures::{self, Drawing, Entry, FIGURES, Inputs, Studies};
 use crate::files;
-use crate::progress::note;
-use crate::results::{EVERYTHING, FOLDER};
-use crate::schemes::{SchemeArg, SchemeList};
-use crate::table::{Format, Table};
+use crate::progress::{Terminal, note};
 use clap::{Args, ValueEnum};
+use eigenring_atlas::figures::{self, Drawing, Entry, FIGURES, Inputs, Studies};
+use eigenring_atlas::progress::{Silent, each};
+use eigenring_atlas::results::{EVERYTHING, FOLDER};
+use eigenring_atlas::schemes::{SchemeList, SchemeName, Tuner};
+use eigenring_atlas::table::Format;
 use eigenring_figure::Width;
 use eigenring_scheme::Spec;
-use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::str::FromStr;
 
 /// Draw figures, each with its data as CSV beside it.
 ///
-/// Numbers come from the stored results where they are found, and are computed on the spot where not. The names of the
-/// files that were written are printed.
+/// Numbers come from the stored results where they are found, and are computed on the spot where not. The
+/// names of the files that were written are printed.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  eigenring plot --list\n  eigenring plot --all\n  eigenring plot samples --valences 5,8 --size one\n  eigenring plot characteristic-map --schemes catmull-clark,lambda:optimal --valences 5,8\n  eigenring plot stencils --valences 3..20 --range 0.3..0.7 --format svg --out /tmp/figures"
@@ -130,17 +130,17 @@ const RESULTS: &str = "results";
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         if self.list {
-            files::emit(None, list().as_bytes())?;
+            files::emit(None, figures::list().render(Format::Text).as_bytes())?;
             return Ok(ExitCode::SUCCESS);
         }
         let entries = self.entries()?;
         self.check(&entries)?;
         files::check_writable(&self.out)?;
         let studies = self.studies(&entries)?;
-        let drawn: Vec<Vec<(String, Vec<u8>)>> = entries
-            .par_iter()
-            .map(|entry| self.draw(entry, &studies))
-            .collect::<Result<_, _>>()?;
+        let tuner = args::tuner();
+        let drawn = each(&Terminal, "figures", &entries, |entry| {
+            self.draw(entry, &studies, &tuner)
+        })?;
         let mut names = String::new();
         for (name, contents) in drawn.into_iter().flatten() {
             let path = self.out.join(name);
@@ -161,10 +161,8 @@ impl Arguments {
         }
         if self.figures.is_empty() {
             let names: Vec<&str> = FIGURES.iter().map(|entry| entry.name).collect();
-            return Err(Error::Usage {
-                message: "no figure is named".to_owned(),
-                accepted: format!("--all, --list, or {}", names.join(", ")),
-            });
+            let accepted = format!("--all, --list, or {}", names.join(", "));
+            return Err(Error::usage("no figure is named", accepted));
         }
         let mut entries: Vec<&'static Entry> = Vec::new();
         for name in &self.figures {
@@ -180,11 +178,7 @@ impl Arguments {
     fn check(&self, entries: &[&Entry]) -> Result<(), Error> {
         for &lambda in &self.lambda {
             if !(LAMBDAS.0 < lambda && lambda < LAMBDAS.1) {
-                return Err(Error::Range {
-                    what: "lambda",
-                    given: lambda.to_string(),
-                    accepted: "0.125 < lambda < 1".to_owned(),
-                });
+                return Err(Error::range("lambda", lambda, "0.125 < lambda < 1"));
             }
         }
         if self.all {
@@ -193,10 +187,10 @@ impl Arguments {
         for entry in entries {
             let refuse = |option: &str, takes: fn(&Entry) -> bool| {
                 let names: Vec<&str> = FIGURES.iter().filter(|e| takes(e)).map(|e| e.name).collect();
-                Err(Error::Usage {
-                    message: format!("figure {} does not take {option}", entry.name),
-                    accepted: format!("{option} for {}", names.join(", ")),
-                })
+                Err(Error::usage(
+                    format!("figure {} does not take {option}", entry.name),
+                    format!("{option} for {}", names.join(", ")),
+                ))
             };
             if self.valences.is_some() && entry.valences.is_empty() {
                 return refuse("--valences", |entry| !entry.valences.is_empty());
@@ -225,12 +219,12 @@ impl Arguments {
     }
 
     /// The schemes of a figure that takes them: given by name, as members of the lambda-scheme, or its own.
-    fn schemes(&self, entry: &Entry) -> Result<Vec<SchemeArg>, Error> {
+    fn schemes(&self, entry: &Entry) -> Result<Vec<SchemeName>, Error> {
         if entry.schemes.is_none() {
             return Ok(Vec::new());
         }
         let member = |&lambda: &f64| {
-            SchemeArg::Spec(Spec::Lambda {
+            SchemeName::Spec(Spec::Lambda {
                 lambda,
                 s: None,
                 weights: None,
@@ -239,7 +233,7 @@ impl Arguments {
         match &self.schemes {
             Some(SchemeList(schemes)) => Ok(schemes.iter().map(|(_, scheme)| scheme.clone()).collect()),
             None if !self.lambda.is_empty() => Ok(self.lambda.iter().map(member).collect()),
-            None => entry.default_schemes(),
+            None => Ok(entry.default_schemes()?),
         }
     }
 
@@ -247,15 +241,15 @@ impl Arguments {
         let needed = entries.iter().filter(|entry| entry.studies);
         let needed: Vec<usize> = needed.flat_map(|entry| self.valences(entry)).copied().collect();
         let default = Path::new(RESULTS);
-        match &self.results {
-            Some(folder) => Studies::load(Some(folder), &needed),
-            None if default.join(FOLDER).join(EVERYTHING).exists() => Studies::load(Some(default), &needed),
-            None => Studies::load(None, &needed),
-        }
+        let folder = match &self.results {
+            Some(folder) => Some(folder.as_path()),
+            None => Some(default).filter(|folder| folder.join(FOLDER).join(EVERYTHING).exists()),
+        };
+        Ok(Studies::load(folder, &needed, &Terminal)?)
     }
 
     /// The files of a figure.
-    fn draw(&self, entry: &Entry, studies: &Studies) -> Result<Vec<(String, Vec<u8>)>, Error> {
+    fn draw(&self, entry: &Entry, studies: &Studies, tuner: &Tuner<'_>) -> Result<Vec<(String, Vec<u8>)>, Error> {
         let schemes = self.schemes(entry)?;
         let inputs = Inputs {
             schemes: &schemes,
@@ -273,13 +267,11 @@ impl Arguments {
                 None => entry.width,
             },
             studies,
+            tuner,
         };
         let drawings = (entry.build)(&inputs)?;
-        let files: Vec<Vec<(String, Vec<u8>)>> = drawings
-            .into_par_iter()
-            .map(|drawing| self.files(&drawing))
-            .collect::<Result<_, _>>()?;
-        Ok(files.into_iter().flatten().collect())
+        // the bar counts figures
+        Ok(each(&Silent, entry.name, &drawings, |drawing| self.files(drawing))?.concat())
     }
 
     fn files(&self, drawing: &Drawing) -> Result<Vec<(String, Vec<u8>)>, Error> {
@@ -304,24 +296,4 @@ impl Arguments {
 
 fn takes_lambda(entry: &Entry) -> bool {
     !entry.lambdas.is_empty() || entry.schemes.is_some()
-}
-
-/// All figures, for people.
-fn list() -> String {
-    let mut table = Table::new(["name", "shows", "corresponds to", "valences"]);
-    for entry in FIGURES {
-        let valences: Vec<String> = entry.valences.iter().map(usize::to_string).collect();
-        let valences = match entry.valences {
-            [] => "-".to_owned(),
-            [first, .., last] if last - first + 1 == entry.valences.len() => format!("{first}..{last}"),
-            _ => valences.join(","),
-        };
-        table.push(vec![
-            entry.name.into(),
-            entry.title.into(),
-            entry.reference.into(),
-            valences.into(),
-        ]);
-    }
-    table.render(Format::Text)
 }

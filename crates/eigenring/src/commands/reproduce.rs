@@ -1,21 +1,23 @@
 //! `eigenring reproduce`: rebuild the stored results, or check that they can be rebuilt.
 
+use super::Cli;
 use crate::args;
-use crate::compare::{Comparison, compare_csv, compare_json};
+use crate::command_line::explain;
 use crate::error::Error;
 use crate::files;
-use crate::index::{Entry, Index};
 use crate::progress::bar;
-use clap::Args;
+use clap::{Args, Parser};
+use eigenring_atlas::difference::{Report, compare_files};
+use eigenring_atlas::index::{Entry, Index};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
+use std::process::{Command, ExitCode, Output, Stdio};
 
 /// Rebuild results/, or re-check it: every table and figure that its index.toml lists.
 ///
-/// With --check nothing is written there: each entry is made anew in a temporary folder and compared, number by number, with
-/// the files; the worst entries are printed and the exit code is 1 if any differs by more than the tolerances. Entries
-/// with a check of their own, which take long to make, are checked by it, and made anew when named with --only. Pictures
-/// are compared by the numbers that are stored beside them.
+/// With --check nothing is written there: each entry is made anew in a temporary folder and compared, number
+/// by number, with the files; the worst entries are printed and the exit code is 1 if any differs by more
+/// than the tolerances. Entries with a check of their own, which take long to make, are checked by it, and
+/// made anew when named with --only. Pictures are compared by the numbers that are stored beside them.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  eigenring reproduce --check\n  eigenring reproduce --check --only lambda-tables\n  eigenring reproduce"
@@ -38,21 +40,14 @@ pub struct Arguments {
     rtol: f64,
 }
 
-/// How many of the worst entries are printed for each file.
-const SHOWN: usize = 10;
-
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         for (what, tolerance) in [("absolute tolerance", self.atol), ("relative tolerance", self.rtol)] {
             if !(tolerance >= 0.0 && tolerance.is_finite()) {
-                return Err(Error::Range {
-                    what,
-                    given: tolerance.to_string(),
-                    accepted: "0 and above, finite".to_owned(),
-                });
+                return Err(Error::range(what, tolerance, "0 and above, finite"));
             }
         }
-        let index = Index::of(&self.out)?;
+        let index = Index::of(&self.out, &accept)?;
         let entries = index.select(self.only.as_deref())?;
         let progress = bar("results", entries.len());
         let mut same = true;
@@ -61,7 +56,7 @@ impl Arguments {
             let report = match (self.check, self.only.is_some()) {
                 (true, named) => self.check(entry, named)?,
                 (false, _) => {
-                    entry.make(&self.out)?;
+                    make(entry, &self.out)?;
                     Report {
                         same: true,
                         text: format!("rebuilt    {}: {}\n", entry.name, entry.command),
@@ -82,7 +77,7 @@ impl Arguments {
         for path in &entry.files {
             present(path)?;
         }
-        if !named && let Some((holds, text)) = entry.recheck(&self.out)? {
+        if !named && let Some((holds, text)) = recheck(entry, &self.out)? {
             let verdict = if holds { "holds" } else { "REFUTED" };
             let mut report = format!("{verdict:9}  {}\n", entry.name);
             if !holds {
@@ -93,11 +88,11 @@ impl Arguments {
                 text: report,
             });
         }
-        let folder = tempfile::tempdir().map_err(|source| Error::Write {
+        let folder = tempfile::tempdir().map_err(|source| eigenring_atlas::Error::Write {
             path: std::env::temp_dir(),
             source,
         })?;
-        entry.make(folder.path())?;
+        make(entry, folder.path())?;
         let made = if entry.files.is_empty() {
             files::below(folder.path())?
         } else {
@@ -109,7 +104,7 @@ impl Arguments {
         };
         for path in made {
             let tolerances = (entry.atol.unwrap_or(self.atol), entry.rtol.unwrap_or(self.rtol));
-            let report = compare(folder.path(), &self.out, &path, tolerances)?;
+            let report = compare_files(folder.path(), &self.out, &path, tolerances)?;
             whole.same &= report.same;
             whole.text.push_str(&report.text);
         }
@@ -117,46 +112,80 @@ impl Arguments {
     }
 }
 
-struct Report {
-    same: bool,
-    text: String,
+/// Says why the parser refuses a command line.
+fn accept(words: &[String]) -> Result<(), String> {
+    Cli::try_parse_from(words).map(|_| ()).map_err(|error| {
+        let arguments: Vec<_> = words.iter().map(Into::into).collect();
+        explain(&error, &arguments)
+    })
 }
 
-/// Compares one file that was made anew with the one that is stored.
-fn compare(anew: &Path, stored: &Path, path: &Path, (atol, rtol): (f64, f64)) -> Result<Report, Error> {
-    let name = path.to_string_lossy();
-    let numbers = match path.extension().and_then(|extension| extension.to_str()) {
-        Some("csv") => compare_csv,
-        Some("json") => compare_json,
-        // a picture or a page: there must be one
-        _ => {
-            files::size(&anew.join(path))?;
-            files::size(&stored.join(path))?;
-            return Ok(Report {
-                same: true,
-                text: format!("present    {name}\n"),
-            });
-        }
-    };
-    let (expected, found) = (files::read(&anew.join(path))?, files::read(&stored.join(path))?);
-    let Comparison {
-        compared,
-        mut differences,
-    } = numbers(&expected, &found, atol, rtol);
-    let verdict = if differences.is_empty() { "same" } else { "DIFFERENT" };
-    let mut text = format!(
-        "{verdict:9}  {name}: {compared} entries compared, {} differ\n",
-        differences.len()
-    );
-    differences.sort_by(|a, b| b.excess.total_cmp(&a.excess));
-    for difference in differences.iter().take(SHOWN) {
-        text.push_str(&format!(
-            "           {}: stored {}, now {}\n",
-            difference.place, difference.found, difference.expected
-        ));
+/// Makes the files of an entry below a folder.
+fn make(entry: &Entry, out: &Path) -> Result<(), Error> {
+    let words = entry.making(out);
+    let output = run(&words)?;
+    if output.status.success() {
+        return Ok(());
     }
-    Ok(Report {
-        same: differences.is_empty(),
-        text,
+    let message = String::from_utf8_lossy(&output.stderr);
+    Err(Error::Rebuild {
+        command: words.join(" "),
+        message: message.trim().trim_start_matches("error: ").to_owned(),
     })
+}
+
+/// Runs the command that re-checks the files of an entry, if there is one: whether it succeeds, and what it
+/// prints.
+fn recheck(entry: &Entry, out: &Path) -> Result<Option<(bool, String)>, Error> {
+    let Some(words) = entry.checking(out) else {
+        return Ok(None);
+    };
+    let output = run(&words)?;
+    let text = if output.status.success() {
+        output.stdout
+    } else {
+        [output.stdout, output.stderr].concat()
+    };
+    Ok(Some((
+        output.status.success(),
+        String::from_utf8_lossy(&text).into_owned(),
+    )))
+}
+
+/// Runs this program with other arguments. Its bar, if it draws one, is not shown: the caller counts entries.
+fn run(words: &[String]) -> Result<Output, Error> {
+    let program = std::env::current_exe().map_err(Error::Start)?;
+    Command::new(program)
+        .args(&words[1..])
+        .stdin(Stdio::null())
+        .output()
+        .map_err(Error::Start)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_index_is_held_to_what_the_parser_takes() {
+        let folder = tempfile::tempdir().unwrap();
+        let read = |command: &str| {
+            let text = format!("version = 1\n[[entry]]\nname = \"a\"\ncommand = \"{command}\"\n");
+            files::write(&folder.path().join("index.toml"), text.as_bytes()).unwrap();
+            Index::of(folder.path(), &accept).map_err(Error::from)
+        };
+        assert!(read("eigenring tables --valences 5").is_ok());
+        for (command, part) in [
+            ("eigenring tables --valences 2", "accepted"),
+            ("eigenring stencil -N 5 --lambda 0.5", "--out"),
+            ("eigenring paint", "'paint'"),
+        ] {
+            let error = read(command).unwrap_err();
+            assert!(
+                error.line().contains(part) && error.accepted().is_some(),
+                "{}",
+                error.line()
+            );
+        }
+    }
 }

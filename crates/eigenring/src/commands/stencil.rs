@@ -3,15 +3,16 @@
 use crate::args::{self, Output};
 use crate::error::Error;
 use crate::files;
-use crate::schemes::{Point, Tuner};
-use crate::table::Record;
 use clap::Args;
+use eigenring_atlas::schemes::feasible;
+use eigenring_atlas::stencil::weights;
 use std::process::ExitCode;
 
 /// Print the full set of stencil weights at one lambda.
 ///
-/// Without --f2 and --f3 the weights are those of the embedded spline table; where it does not reach (valences above 20,
-/// lambda outside [0.15, 0.9], another s) they are tuned, which is said on standard error, and remembered.
+/// Without --f2 and --f3 the weights are those of the embedded spline table; where it does not reach
+/// (valences above 20, lambda outside [0.15, 0.9], another s) they are tuned, which is said on standard
+/// error, and remembered.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  eigenring stencil -N 6 --lambda 0.55\n  eigenring stencil -N 6 --lambda 0.55 --f2 0.25 --f3 0.2 --format json"
@@ -38,26 +39,11 @@ pub struct Arguments {
 
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
-        let valence = self.valence;
-        let point = match (self.f2, self.f3) {
-            (Some(f2), Some(f3)) => Point::given(valence, self.lambda, self.s, 6.0, f2, f3)?,
-            _ => Tuner::default().point(valence, self.lambda, self.s)?,
+        let member = match (self.f2, self.f3) {
+            (Some(f2), Some(f3)) => feasible(self.valence, self.lambda, self.s, 6.0, [f2, f3])?,
+            _ => args::tuner().at(self.valence, self.lambda, self.s)?,
         };
-        let stencil = point.plane.stencil(point.f2, point.f3);
-        let mut record = Record::default()
-            .with("valence", valence)
-            .with("lambda", point.plane.lambda)
-            .with("mu", point.plane.mu())
-            .with("s", point.plane.s);
-        for (name, weight) in stencil.weights.named() {
-            record = record.with(name, weight);
-        }
-        let record = record
-            .with("g1", stencil.g1)
-            .with("g2", stencil.g2)
-            .with("g3", stencil.g3)
-            .with("source", point.source.name());
-        files::emit(None, record.render(self.output.format).as_bytes())?;
+        files::emit(None, weights(&member).render(self.output.format()).as_bytes())?;
         Ok(ExitCode::SUCCESS)
     }
 }

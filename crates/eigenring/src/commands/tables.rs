@@ -1,27 +1,30 @@
 //! `eigenring tables`: the main job.
 
 use crate::args::{Output, TuningArgs, Valences};
+use crate::checkpoint::Checkpoints;
 use crate::error::Error;
 use crate::files;
-use crate::results::{self, FOLDER, Results};
-use crate::run::{Parameters, check, studies};
-use crate::table::{Format, Table};
-use crate::tension;
+use crate::progress::Terminal;
 use clap::{Args, ValueEnum};
-use eigenring_tune::study::{Knots, Study};
+use eigenring_atlas::results::{self, FOLDER, Results, summary};
+use eigenring_atlas::run::{Parameters, check, studies};
+use eigenring_atlas::table::Format;
+use eigenring_atlas::tension;
+use eigenring_tune::study::Knots;
 use eigenring_tune::sweep::{Options, Range};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Regenerate every coefficient table of the lambda-scheme from nothing, or the eigenvalue tables of the tension scheme.
+/// Regenerate every coefficient table of the lambda-scheme from nothing, or the eigenvalue tables of the
+/// tension scheme.
 ///
-/// For each valence: tunes the stencils at 100 lambdas, finds the globally optimal lambda, fits the spline stencils, and
-/// writes OUT/lambda/: the paper's tables and the samples as CSV, and tables.json with everything at full precision. An
-/// interrupted run resumes when the same command is given again.
+/// For each valence: tunes the stencils at 100 lambdas, finds the globally optimal lambda, fits the spline
+/// stencils, and writes OUT/lambda/: the paper's tables and the samples as CSV, and tables.json with
+/// everything at full precision. An interrupted run resumes when the same command is given again.
 ///
-/// With --scheme tension: OUT/tension/ gets the leading eigenvalues of all local matrices of orders 3 to 22, five initial
-/// tensions and levels 1 to 10, the smallest gaps among them, the exceptions, the paper's Table 2 and characteristic meshes.
-/// Knots, tuning and --embed belong to the lambda-scheme alone.
+/// With --scheme tension: OUT/tension/ gets the leading eigenvalues of all local matrices of orders 3 to 22,
+/// five initial tensions and levels 1 to 10, the smallest gaps among them, the exceptions, the paper's Table
+/// 2 and characteristic meshes. Knots, tuning and --embed belong to the lambda-scheme alone.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  eigenring tables                         all of results/lambda, valences 3 to 20\n  eigenring tables --valences 5,6 --out /tmp/try\n  eigenring tables --starts full --format latex\n  eigenring tables --scheme tension        all of results/tension"
@@ -95,22 +98,24 @@ impl Arguments {
                 &Range::default(),
             );
             if parameters != usual || self.embed.is_some() {
-                return Err(Error::Usage {
-                    message: "knots, tuning options and --embed belong to the tables of the lambda-scheme".to_owned(),
-                    accepted: "--valences, --out, --threads and --format".to_owned(),
-                });
+                return Err(Error::usage(
+                    "knots, tuning options and --embed belong to the tables of the lambda-scheme",
+                    "--valences, --out, --threads and --format",
+                ));
             }
             let parameters = tension::Parameters::new(parameters.valences);
             return on_threads(self.threads, || {
-                eigenvalue_tables(parameters, &self.out, self.output.format)
+                eigenvalue_tables(parameters, &self.out, self.output.format())
             })?;
         }
-        let results = on_threads(self.threads, || regenerate(&parameters, &self.out, self.output.format))??;
+        let results = on_threads(self.threads, || {
+            regenerate(&parameters, &self.out, self.output.format())
+        })??;
         if let Some(path) = &self.embed {
             let table = results::table(&results.valences, &parameters)?;
             files::write(path, table.to_json()?.as_bytes())?;
         }
-        files::emit(None, summary(&results.valences).render(self.output.format).as_bytes())?;
+        files::emit(None, summary(&results.valences).render(self.output.format()).as_bytes())?;
         Ok(ExitCode::SUCCESS)
     }
 }
@@ -120,10 +125,10 @@ fn on_threads<T: Send>(threads: Option<u16>, work: impl FnOnce() -> T + Send) ->
     let count = threads.map_or(0, usize::from);
     match rayon::ThreadPoolBuilder::new().num_threads(count).build() {
         Ok(pool) => Ok(pool.install(work)),
-        Err(error) => Err(Error::Usage {
-            message: format!("cannot start {count} threads: {error}"),
-            accepted: "a smaller number".to_owned(),
-        }),
+        Err(error) => Err(Error::usage(
+            format!("cannot start {count} threads: {error}"),
+            "a smaller number",
+        )),
     }
 }
 
@@ -133,7 +138,8 @@ pub fn regenerate(parameters: &Parameters, out: &Path, format: Format) -> Result
     let folder = out.join(FOLDER);
     files::check_writable(&folder)?;
     let resume = folder.join(RESUME);
-    let studies = studies(parameters, Some(&resume))?;
+    let kept = Checkpoints::open(&resume, parameters)?;
+    let studies = studies(parameters, &kept, &Terminal)?;
     let results = Results::new(studies, parameters.clone())?;
     let mut all = results.files();
     if format == Format::Latex {
@@ -143,7 +149,8 @@ pub fn regenerate(parameters: &Parameters, out: &Path, format: Format) -> Result
         files::write(&folder.join(name), text.as_bytes())?;
     }
     // only now nothing is left to resume
-    std::fs::remove_dir_all(&resume).map_err(|source| Error::Write { path: resume, source })?;
+    drop(kept);
+    files::remove_folder(&resume)?;
     Ok(results)
 }
 
@@ -151,7 +158,7 @@ pub fn regenerate(parameters: &Parameters, out: &Path, format: Format) -> Result
 fn eigenvalue_tables(parameters: tension::Parameters, out: &Path, format: Format) -> Result<ExitCode, Error> {
     let folder = out.join(tension::FOLDER);
     files::check_writable(&folder)?;
-    let results = tension::Results::new(parameters)?;
+    let results = tension::Results::new(parameters, &Terminal)?;
     let mut all = results.files();
     if format == Format::Latex {
         all.extend(results.latex());
@@ -161,39 +168,4 @@ fn eigenvalue_tables(parameters: tension::Parameters, out: &Path, format: Format
     }
     files::emit(None, results.smallest_gaps().render(format).as_bytes())?;
     Ok(ExitCode::SUCCESS)
-}
-
-/// What people look at first.
-fn summary(studies: &[Study]) -> Table {
-    let mut table = Table::new([
-        "N",
-        "lambda_l",
-        "lambda_C",
-        "paper",
-        "difference",
-        "E",
-        "f2",
-        "f3",
-        "active",
-        "excess",
-        "strictness",
-    ]);
-    for study in studies {
-        let best = study.global.optimum();
-        let paper = study.featured("lambda_C").and_then(|f| f.paper);
-        table.push(vec![
-            study.valence.into(),
-            study.lambda_l.into(),
-            best.lambda.into(),
-            paper.into(),
-            paper.map(|paper| best.lambda - paper).into(),
-            best.minimum.total.into(),
-            best.minimum.f2.into(),
-            best.minimum.f3.into(),
-            best.minimum.active.join("+").into(),
-            study.accuracy.excess.into(),
-            study.accuracy.strictness.into(),
-        ]);
-    }
-    table
 }

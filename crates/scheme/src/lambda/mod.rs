@@ -9,6 +9,7 @@
 
 mod domain;
 mod knots;
+mod member;
 mod paper;
 mod plane;
 mod relaxation;
@@ -16,7 +17,8 @@ mod table;
 
 pub use domain::{Bounds, Constraint, Curve, Domain, F2End, F2Interval, F3End, InfeasiblePoint, Root, Strip};
 pub use knots::LambdaKnots;
-pub use paper::{PAPER_TABLE_1, PaperRow};
+pub use member::{Member, Source, Untabulated};
+pub use paper::{LAMBDA_A, LAMBDA_M, LAMBDA_R1, PAPER_TABLE_1, PaperRow};
 pub use plane::{LambdaStencil, Plane};
 pub use relaxation::{Addition, Branch, Relaxation, Term};
 pub use table::{Entry, LambdaTable, Provenance, TABLE_VERSION, TableError};

@@ -5,6 +5,13 @@
 
 use super::LambdaKnots;
 
+/// Optimal convergence in analysis, lambda_A* of all valences.
+pub const LAMBDA_A: f64 = 0.39;
+/// Uniform refined meshes, lambda_M* of all valences.
+pub const LAMBDA_M: f64 = 0.5;
+/// The empirical start of the recommended region, lambda_r1 of all valences.
+pub const LAMBDA_R1: f64 = 0.2;
+
 /// One row of Table 1. The end knots 0.15 and 0.9 are the same in all rows and not listed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PaperRow {
@@ -47,11 +54,11 @@ const fn row(valence: usize, v: [f64; 6]) -> PaperRow {
     let [lambda_b, lambda_l, lambda_cc, lambda_d, lambda_c_star, lambda_r2] = v;
     PaperRow {
         valence,
-        lambda_r1: 0.2,
+        lambda_r1: LAMBDA_R1,
         lambda_b,
-        lambda_a_star: 0.39,
+        lambda_a_star: LAMBDA_A,
         lambda_l,
-        lambda_m_star: 0.5,
+        lambda_m_star: LAMBDA_M,
         lambda_cc,
         lambda_d,
         lambda_c_star,
@@ -59,7 +66,7 @@ const fn row(valence: usize, v: [f64; 6]) -> PaperRow {
     }
 }
 
-/// The table's 14 rows; lambda_r1 = 0.2, lambda_A* = 0.39 and lambda_M* = 0.5 throughout.
+/// The table's 14 rows; lambda_r1, lambda_A* and lambda_M* are the same in all.
 pub const PAPER_TABLE_1: [PaperRow; 14] = [
     //        b       l       CC      d       C*      r2
     row(3, [0.25, 0.3536, 0.4101, 0.5, 0.4112, 0.5832]),

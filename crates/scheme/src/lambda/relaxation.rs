@@ -110,9 +110,14 @@ impl Relaxation {
     /// The plane of stencils at lambda and the s that belongs to it.
     ///
     /// # Errors
-    /// [`Error::Lambda`] unless 1/8 < lambda < 1, [`Error::Relaxation`] where the rule's mu reaches lambda.
+    /// [`Error::Lambda`] unless 1/8 < lambda < 1, [`Error::RelaxationRule`] where the rule's mu reaches lambda, as
+    /// it does at large valences.
     pub fn plane(&self, lambda: f64) -> Result<Plane<f64>, Error> {
-        Plane::new(self.valence, lambda, self.s(lambda)?)
+        let (valence, s) = (self.valence, self.s(lambda)?);
+        if s * lambda < 1.0 {
+            return Plane::new(valence, lambda, s);
+        }
+        Err(Error::RelaxationRule { valence, lambda, s })
     }
 
     /// The smooth piece that is valid at lambda; at a kink the one on the right for terms, on the left for the addition

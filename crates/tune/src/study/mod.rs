@@ -8,6 +8,7 @@
 mod admissible;
 mod recommended;
 
+pub use eigenring_scheme::lambda::{LAMBDA_A, LAMBDA_M, LAMBDA_R1};
 pub use recommended::second_ring_convexity;
 
 use crate::global::{Global, global};
@@ -17,13 +18,6 @@ use crate::sweep::{self, BranchSample, Options, Range, Sample, branch};
 use admissible::Admissible;
 use eigenring_scheme::lambda::{Entry, LambdaKnots, PAPER_TABLE_1, PaperRow, Relaxation};
 use serde::{Deserialize, Serialize};
-
-/// The paper's lambda for optimal convergence in analysis.
-pub const LAMBDA_A: f64 = 0.39;
-/// The paper's lambda for uniform refined meshes.
-pub const LAMBDA_M: f64 = 0.5;
-/// The paper's empirical start of the recommended region.
-pub const LAMBDA_R1: f64 = 0.2;
 
 /// The relative margin with which the splines keep within the eigenvalue bounds: half of that of the samples, so that a
 /// spline may pass between them.

@@ -8,8 +8,8 @@
 
 use super::Error;
 use eigenring_scheme::lambda::{Entry, Relaxation};
-use eigenring_scheme::{FourierNet, Lattice, Scheme, Site};
-use eigenring_spectral::{fourier_block, numbering};
+use eigenring_scheme::{Lattice, Scheme, Site};
+use eigenring_spectral::NaturalMode;
 
 /// Steps of lambda in which the first concave corner is looked for.
 const STEPS: usize = 400;
@@ -60,23 +60,9 @@ pub fn second_ring_convexity(scheme: &Scheme<f64>, lambda: f64) -> Result<f64, e
     if scheme.lattice() != Lattice::Vertex {
         return Err(eigenring_spectral::Error::NotSymmetric);
     }
-    let block = fourier_block(scheme.limit(), 2, 1)?;
-    let space = block.eigenspace((lambda, 0.0), 1)?;
-    let [unknowns] = space.right.as_slice() else {
-        return Err(eigenring_spectral::Error::Multiplicity {
-            value: lambda,
-            fourier: 1,
-            found: space.right.len(),
-            expected: 1,
-        });
-    };
-    let net = FourierNet::<f64>::new(numbering(scheme.limit(), 2), 1, scheme.limit().has_mirror())?;
-    let at = |a: i32, b: i32| -> Result<[f64; 2], eigenring_spectral::Error> {
-        // all corners lie in the closed sector 0; (0, b) is on spoke 1
-        let site = Site::new(scheme.fan(), 0, 2 * a, 2 * b).unwrap_or(Site::CENTRE);
-        let (x, y) = net.mode(unknowns, site)?;
-        Ok([x, y])
-    };
+    let mode = NaturalMode::new(scheme.limit(), 2, lambda)?;
+    // all corners lie in the closed sector 0; (0, b) is on spoke 1
+    let at = |a: i32, b: i32| mode.at(Site::new(scheme.fan(), 0, 2 * a, 2 * b).unwrap_or(Site::CENTRE));
     let [ex, ey] = at(1, 0)?;
     let size = ex * ex + ey * ey;
     let mut smallest = f64::INFINITY;
@@ -86,7 +72,7 @@ pub fn second_ring_convexity(scheme: &Scheme<f64>, lambda: f64) -> Result<f64, e
         for i in 0..4 {
             let [p, q, r] = [quad[i], quad[(i + 1) % 4], quad[(i + 2) % 4]];
             let cross = (q[0] - p[0]) * (r[1] - q[1]) - (q[1] - p[1]) * (r[0] - q[0]);
-            // turning by the eigenvector's arbitrary phase and scale leaves this ratio
+            // the mode's arbitrary phase and scale leave this ratio
             smallest = smallest.min(cross / size);
         }
     }

@@ -1,0 +1,237 @@
+//! The figures, one module each.
+//!
+//! To add one: a module with an `ENTRY`, listed in [`FIGURES`]; the tests here and `eigenring plot --all` then cover it.
+//!
+//! A figure is a registered [`Entry`]: a name, what it shows, what it takes, and a function from [`Inputs`] to [`Drawing`]s. Drawings are pure functions of
+//! their inputs; the command writes them. Each drawing comes with the tables of the numbers it shows, which are what tests compare.
+
+mod certificates;
+mod characteristic;
+mod characteristic_meshes;
+mod curvature_sign;
+mod feasible_domain;
+mod feasible_region;
+mod grid;
+mod natural;
+mod nets;
+mod overview;
+mod samples;
+mod second_order;
+mod sheet;
+mod spectra;
+mod stencils;
+mod studies;
+mod subject;
+mod sweep;
+mod tension_curves;
+mod weighting;
+
+pub use studies::Studies;
+
+use crate::error::Error;
+use crate::schemes::{SchemeName, Tuner};
+use crate::table::Table;
+use eigenring_figure::{Figure, Width};
+
+/// A picture with its data.
+#[derive(Debug)]
+pub struct Drawing {
+    /// File name without extension.
+    pub stem: String,
+    /// The picture.
+    pub figure: Figure,
+    /// Its data: a suffix of the file name, or an empty one, and the table.
+    pub data: Vec<(&'static str, Table)>,
+}
+
+/// What a figure is drawn from.
+#[derive(Clone, Copy, Debug)]
+pub struct Inputs<'a> {
+    /// The valences, at least one if the figure takes them.
+    pub valences: &'a [usize],
+    /// The lambdas, at least one if the figure takes them.
+    pub lambdas: &'a [f64],
+    /// The schemes, if the figure takes them; none stands for the figure's own choice.
+    pub schemes: &'a [SchemeName],
+    /// The range of values that colours show, if the figure has one.
+    pub colours: Option<(f64, f64)>,
+    /// The lambdas shown, if the figure takes a range; lower end first.
+    pub range: (f64, f64),
+    /// The width of the picture.
+    pub width: Width,
+    /// Samples and splines of the lambda-scheme.
+    pub studies: &'a Studies,
+    /// Where members of the lambda-scheme that are not tabulated come from.
+    pub tuner: &'a Tuner<'a>,
+}
+
+impl Inputs<'_> {
+    /// Whether the picture is for two columns.
+    pub fn is_wide(&self) -> bool {
+        self.width == Width::Two
+    }
+}
+
+/// A registered figure.
+#[derive(Debug)]
+pub struct Entry {
+    /// What it is called on the command line.
+    pub name: &'static str,
+    /// What it shows.
+    pub title: &'static str,
+    /// The published figure that it corresponds to.
+    pub reference: &'static str,
+    /// The default valences; empty if it takes none.
+    pub valences: &'static [usize],
+    /// The default lambdas; empty if it takes none.
+    pub lambdas: &'static [f64],
+    /// The default schemes; `None` if it takes none, empty for its own choice. Lambdas then stand for members of the lambda-scheme.
+    pub schemes: Option<&'static [&'static str]>,
+    /// The default range of the colour scale, if there is one.
+    pub colours: Option<(f64, f64)>,
+    /// Whether a range of lambda can be chosen.
+    pub range: bool,
+    /// Whether it needs the studies of its valences.
+    pub studies: bool,
+    /// The default width.
+    pub width: Width,
+    /// Draws it.
+    pub build: fn(&Inputs<'_>) -> Result<Vec<Drawing>, Error>,
+}
+
+/// All figures, in the order in which they are listed.
+pub const FIGURES: &[Entry] = &[
+    overview::ENTRY,
+    feasible_region::ENTRY,
+    weighting::ENTRY,
+    samples::ENTRY,
+    stencils::ENTRY,
+    curvature_sign::ENTRY,
+    feasible_domain::ENTRY,
+    natural::ENTRY,
+    characteristic::ENTRY,
+    characteristic_meshes::ENTRY,
+    second_order::ENTRY,
+    spectra::ENTRY,
+    tension_curves::ENTRY,
+    certificates::ENTRY,
+];
+
+impl Entry {
+    /// The default schemes.
+    pub fn default_schemes(&self) -> Result<Vec<SchemeName>, Error> {
+        let schemes = self.schemes.unwrap_or_default().iter();
+        Ok(schemes
+            .map(|spec| spec.parse())
+            .collect::<Result<_, eigenring_scheme::Error>>()?)
+    }
+}
+
+/// The figure with a name.
+pub fn find(name: &str) -> Result<&'static Entry, Error> {
+    FIGURES.iter().find(|entry| entry.name == name).ok_or_else(|| {
+        let names: Vec<&str> = FIGURES.iter().map(|entry| entry.name).collect();
+        Error::Usage {
+            message: format!("there is no figure {name:?}"),
+            accepted: names.join(", "),
+        }
+    })
+}
+
+/// All figures: name, what they show, what they correspond to, default valences.
+pub fn list() -> Table {
+    let mut table = Table::new(["name", "shows", "corresponds to", "valences"]);
+    for entry in FIGURES {
+        let valences: Vec<String> = entry.valences.iter().map(usize::to_string).collect();
+        let valences = match entry.valences {
+            [] => "-".to_owned(),
+            [first, .., last] if last - first + 1 == entry.valences.len() => format!("{first}..{last}"),
+            _ => valences.join(","),
+        };
+        table.push(vec![
+            entry.name.into(),
+            entry.title.into(),
+            entry.reference.into(),
+            valences.into(),
+        ]);
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::progress::Silent;
+    use crate::table::Format;
+    use std::collections::BTreeSet;
+
+    /// Every figure with its default inputs and with the valences given, in both widths.
+    fn all(width: Width, valences: Option<&[usize]>, studies: &Studies) -> Vec<Drawing> {
+        let drawn = FIGURES.iter().flat_map(|entry| {
+            let schemes = entry.default_schemes().unwrap();
+            let inputs = Inputs {
+                schemes: &schemes,
+                colours: entry.colours,
+                valences: valences
+                    .filter(|_| !entry.valences.is_empty())
+                    .unwrap_or(entry.valences),
+                lambdas: entry.lambdas,
+                range: (0.15, 0.9),
+                width,
+                studies,
+                tuner: &Tuner::default(),
+            };
+            (entry.build)(&inputs).unwrap_or_else(|error| panic!("{}: {error}", entry.name))
+        });
+        drawn.collect()
+    }
+
+    fn stored() -> Studies {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../results");
+        Studies::load(Some(std::path::Path::new(folder)), &[], &Silent).unwrap()
+    }
+
+    #[test]
+    fn names_are_distinct_and_unknown_ones_list_them() {
+        let names: BTreeSet<&str> = FIGURES.iter().map(|entry| entry.name).collect();
+        assert_eq!(names.len(), FIGURES.len());
+        let error = find("nothing").unwrap_err();
+        assert!(names.iter().all(|name| error.accepted().unwrap().contains(name)));
+    }
+
+    #[test]
+    fn nothing_overlaps_or_leaves_the_page() {
+        let few: &[usize] = &[3, 4, 6, 8, 12, 20];
+        let studies = stored();
+        for width in [Width::One, Width::Two] {
+            for valences in [None, Some(few), Some(&[3]), Some(&[20])] {
+                for drawing in all(width, valences, &studies) {
+                    let faults = drawing.figure.layout().unwrap().faults();
+                    assert!(
+                        faults.is_empty(),
+                        "{} {width:?} {valences:?}: {faults:#?}",
+                        drawing.stem
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn drawings_are_deterministic_and_have_data() {
+        let studies = stored();
+        let draw = || all(Width::Two, Some(&[3, 6]), &studies);
+        let mut stems = BTreeSet::new();
+        for (a, b) in draw().into_iter().zip(draw()) {
+            assert!(stems.insert(a.stem.clone()), "{} twice", a.stem);
+            assert_eq!(a.figure.svg().unwrap(), b.figure.svg().unwrap());
+            assert!(!a.data.is_empty(), "{}", a.stem);
+            for ((name, table), (_, other)) in a.data.iter().zip(&b.data) {
+                let csv = table.render(Format::Csv);
+                assert!(csv.lines().count() > 2, "{} {name}", a.stem);
+                assert!(!csv.contains("NaN") && !csv.contains("inf"), "{} {name}", a.stem);
+                assert_eq!(csv, other.render(Format::Csv));
+            }
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! Natural configurations: the control nets of characteristic maps (Ma, Wang and Ma 2023, Fig. 10).
+//!
+//! Valences stand in columns; the rows are schemes, or lambdas in ascending order. All nets have the same number of rings and are drawn to
+//! the same size, so that pictures show how points crowd toward the centre (small lambda) or away from it.
+
+use super::grid::Grid;
+use super::nets::Net;
+use super::subject::{Subject, chosen, featured};
+use super::{Drawing, Entry, Inputs};
+use crate::error::Error;
+use crate::table::Table;
+use eigenring_figure::{Figure, Panel, Width};
+
+pub const ENTRY: Entry = Entry {
+    name: "natural-configurations",
+    title: "control nets of the characteristic maps; columns: valences, rows: lambdas or schemes",
+    reference: "Ma, Wang and Ma 2023, Fig. 10",
+    valences: &[5, 8, 11],
+    lambdas: &[],
+    schemes: Some(&[]),
+    range: false,
+    colours: None,
+    studies: false,
+    width: Width::Two,
+    build,
+};
+
+/// Rings of the nets.
+const RINGS: usize = 3;
+/// The narrowest panel, in millimetres: the longest titles, with two symbols, fit above it.
+const NARROWEST: f64 = 39.0;
+/// The most a panel is wide and high, in millimetres: five fit a page.
+const SIDE: f64 = 38.0;
+
+fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
+    let columns = inputs.valences.iter().map(|&valence| match inputs.schemes {
+        [] => featured(inputs, valence),
+        _ => chosen(inputs, valence),
+    });
+    let columns: Vec<Vec<Subject>> = columns.collect::<Result<_, _>>()?;
+    let rows = columns.iter().map(Vec::len).max().unwrap_or(0);
+    let grid = Grid::new(rows, columns.len(), inputs.width, 0.0, NARROWEST);
+    let height = grid.height(grid.across.min(SIDE));
+    let mut figure = Figure::new(inputs.width, height, "Natural configurations");
+    let mut table = Table::new(["scheme", "valence", "lambda", "ring", "x", "y"]);
+    for (column, subjects) in columns.iter().enumerate() {
+        for (row, subject) in subjects.iter().enumerate() {
+            let net = Net::new(&subject.scheme, RINGS)?;
+            for (ring, [x, y]) in &net.points {
+                table.push(vec![
+                    subject.name.as_str().into(),
+                    subject.valence.into(),
+                    net.lambda.into(),
+                    (*ring).into(),
+                    (*x).into(),
+                    (*y).into(),
+                ]);
+            }
+            let (at_row, at_column) = grid.place(row, column);
+            figure = figure.panel(at_row, at_column, Panel::new(net.chart()).title(subject.full_title()));
+        }
+    }
+    Ok(vec![Drawing {
+        stem: ENTRY.name.to_owned(),
+        figure,
+        data: vec![("", table)],
+    }])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::Studies;
+    use crate::progress::Silent;
+    use crate::schemes::Tuner;
+    use eigenring_scheme::{PointNet, Spec, refine};
+
+    #[test]
+    fn a_natural_configuration_refined_is_itself_times_lambda() {
+        for spec in [
+            "catmull-clark",
+            "doo-sabin",
+            "tension:order=8",
+            "lambda:optimal",
+            "lambda:lambda=0.8",
+        ] {
+            for valence in [3, 4, 5, 20] {
+                let scheme = spec.parse::<Spec>().unwrap().scheme::<f64>(valence).unwrap();
+                let net = Net::new(&scheme, RINGS + 1).unwrap();
+                let numbering = scheme.numbering(net.points.iter().map(|(ring, _)| *ring).max().unwrap());
+                let points = net.points.iter().map(|(_, point)| *point).collect();
+                let refined = refine(scheme.limit(), &PointNet { numbering, points }, &numbering.sites()).unwrap();
+                for (fine, (_, coarse)) in refined.iter().zip(&net.points) {
+                    for axis in 0..2 {
+                        assert!(
+                            (fine[axis] - net.lambda * coarse[axis]).abs() < 1e-10,
+                            "{spec} {valence}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn rows_are_ascending_lambdas_also_where_the_optimum_is_small() {
+        let studies = Studies::load(None, &[], &Silent).unwrap();
+        let inputs = Inputs {
+            valences: &[3, 5],
+            lambdas: &[],
+            schemes: &[],
+            colours: None,
+            range: (0.15, 0.9),
+            width: Width::Two,
+            studies: &studies,
+            tuner: &Tuner::default(),
+        };
+        let drawings = build(&inputs).unwrap();
+        let csv = drawings[0].data[0].1.render(crate::table::Format::Csv);
+        let rows: Vec<Vec<&str>> = csv
+            .lines()
+            .skip(1)
+            .map(|line| line.split(',').rev().collect())
+            .collect();
+        for (valence, points) in [("3", 1 + 12 * 3), ("5", 1 + 12 * 5)] {
+            let lambdas: Vec<f64> = rows
+                .iter()
+                .filter(|r| r[4] == valence)
+                .map(|r| r[3].parse().unwrap())
+                .collect();
+            assert_eq!(lambdas.len(), 5 * points);
+            assert!(lambdas.is_sorted());
+        }
+        // at valence 3 the optimum lies below lambda_M* = 0.5
+        let third = featured(&inputs, 3).unwrap().remove(2);
+        assert_eq!(third.title, "$λ_C^*$ = 0.4112");
+    }
+}

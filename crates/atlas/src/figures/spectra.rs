@@ -1,0 +1,232 @@
+//! Eigenvalues by Fourier index: the spectrum of a scheme at a glance.
+//!
+//! Moduli of the eigenvalues of each Fourier block, on the smallest closed set of rings that hides none of interest (see
+//! [`Sufficient`]); blocks k and N-k have conjugate spectra, so k runs to N/2. A multiple eigenvalue of a block is as many marks
+//! side by side. For bounded curvature lambda is from block 1, mu = lambda^2 (s = 1) from blocks 0 and 2, and all others
+//! are smaller (Ma, Wang and Ma 2023, section 3).
+
+use super::grid::Grid;
+use super::subject::{Subject, chosen};
+use super::{Drawing, Entry, Inputs};
+use crate::error::Error;
+use crate::table::Table;
+use eigenring_figure::{Anchor, Axis, Chart, Colour, Dash, Figure, Marker, Panel, Side, Stroke, Style, Width};
+use eigenring_spectral::{Eigenvalue, Spectrum, Sufficient};
+
+pub const ENTRY: Entry = Entry {
+    name: "spectrum",
+    title: "moduli of the eigenvalues by Fourier index; columns: valences, rows: schemes",
+    reference: "Doo and Sabin 1978",
+    valences: &[5, 8],
+    lambdas: &[],
+    schemes: Some(&["catmull-clark", "doo-sabin", "tension:order=8", "lambda:optimal"]),
+    range: false,
+    colours: None,
+    studies: false,
+    width: Width::Two,
+    build,
+};
+
+/// The narrowest panel, in millimetres: the labels of lambda and mu fit beside the marks.
+const NARROWEST: f64 = 70.0;
+/// Height of a panel, in millimetres.
+const HEIGHT: f64 = 38.0;
+/// Room for labels to the right of the last index, relative to that of the indices.
+const BESIDE: f64 = 0.36;
+/// How far the middle of a label is from its line, and how near lines can be with a label between them.
+const LIFT: f64 = 0.05;
+/// See [`LIFT`].
+const NEAR: f64 = 0.1;
+/// Eigenvalues below this are not drawn: structural zeros, of which there may be many.
+const SMALLEST: f64 = 1e-3;
+
+/// How an eigenvalue is marked.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Positive,
+    Negative,
+    Complex,
+    Defective,
+}
+
+const KINDS: [(Kind, Marker, usize, &str); 4] = [
+    (Kind::Positive, Marker::Circle, 0, "positive"),
+    (Kind::Negative, Marker::Square, 1, "negative"),
+    (Kind::Complex, Marker::Triangle, 3, "complex"),
+    (Kind::Defective, Marker::Cross, 2, "defective"),
+];
+
+fn kind(eigenvalue: &Eigenvalue) -> Kind {
+    match eigenvalue.value {
+        _ if eigenvalue
+            .geometric
+            .is_some_and(|vectors| vectors < eigenvalue.multiplicity) =>
+        {
+            Kind::Defective
+        }
+        (_, im) if im != 0.0 => Kind::Complex,
+        (re, _) if re < 0.0 => Kind::Negative,
+        _ => Kind::Positive,
+    }
+}
+
+fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
+    let grid = Grid::new(
+        inputs.schemes.len(),
+        inputs.valences.len(),
+        inputs.width,
+        0.0,
+        NARROWEST,
+    );
+    let mut figure = Figure::new(inputs.width, grid.height(HEIGHT) + 5.0, "Eigenvalues by Fourier index");
+    let mut table = Table::new([
+        "scheme",
+        "valence",
+        "fourier",
+        "re",
+        "im",
+        "modulus",
+        "multiplicity",
+        "geometric",
+    ]);
+    for (column, &valence) in inputs.valences.iter().enumerate() {
+        for (row, subject) in chosen(inputs, valence)?.iter().enumerate() {
+            let Sufficient { system, .. } = Sufficient::new(subject.scheme.limit(), subject.scheme.closed_rings()?)?;
+            if !system.symmetric() {
+                return Err(eigenring_spectral::Error::NotSymmetric.into());
+            }
+            let spectrum = system.spectrum()?;
+            for e in &spectrum.eigenvalues {
+                table.push(vec![
+                    subject.name.as_str().into(),
+                    valence.into(),
+                    e.fourier.into(),
+                    e.value.0.into(),
+                    e.value.1.into(),
+                    e.modulus().into(),
+                    e.multiplicity.into(),
+                    e.geometric.into(),
+                ]);
+            }
+            let (at_row, at_column) = grid.place(row, column);
+            let chart = chart(subject, &spectrum);
+            figure = figure.panel(at_row, at_column, Panel::new(chart).title(subject.full_title()));
+        }
+    }
+    Ok(vec![Drawing {
+        stem: ENTRY.name.to_owned(),
+        figure: figure.legend(Side::Bottom),
+        data: vec![("", table)],
+    }])
+}
+
+fn chart(subject: &Subject, spectrum: &Spectrum) -> Chart {
+    let n = subject.valence;
+    let last = n / 2;
+    // at most about ten ticks
+    let width = last as f64 + 1.2;
+    let right = last as f64 + 0.6 + BESIDE * width;
+    let x = Axis::new("Fourier index $k$", (-0.6, right)).with_integers((0..=last).step_by(last / 10 + 1));
+    let mut chart = Chart::new(x, Axis::new("|eigenvalue|", (0.0, 1.06)));
+    let rule = |dash| Stroke {
+        dash,
+        ..Stroke::solid(Colour::GREY, 0.2)
+    };
+    let lambda = spectrum.subdominant().map_or(0.0, Eigenvalue::modulus);
+    let mu = spectrum.subsubdominant().map_or(0.0, Eigenvalue::modulus);
+    let ratio = spectrum.curvature_ratio().unwrap_or_default();
+    // a label stands on its line; that of mu hangs from it where lambda's line is near
+    let below = if lambda - mu < NEAR { -LIFT } else { LIFT };
+    for (value, lift, dash, label) in [
+        (lambda, LIFT, Dash::Dashed, format!("$λ$ = {lambda:.4}")),
+        (mu, below, Dash::Dotted, format!("$μ$ = {ratio:.3} $λ^2$")),
+    ] {
+        if value > SMALLEST {
+            chart = chart.horizontal(value, rule(dash)).text(
+                [right - 0.02 * width, value + lift],
+                label,
+                Anchor::End,
+                Colour::INK,
+            );
+        }
+    }
+    for (kind_, marker, colour, label) in KINDS {
+        let mut points = Vec::new();
+        let shown = spectrum
+            .eigenvalues
+            .iter()
+            .filter(|e| e.modulus() > SMALLEST && kind(e) == kind_);
+        for e in shown {
+            let k = e.fourier.unwrap_or(0);
+            // blocks k and N-k are counted together
+            let copies = if k == 0 || 2 * k == n { 1 } else { 2 };
+            let count = e.multiplicity / copies;
+            let step = (0.16 * last as f64 / 5.0).min(0.8 / count as f64);
+            points.extend((0..count).map(|i| [k as f64 + step * (i as f64 - 0.5 * (count - 1) as f64), e.modulus()]));
+        }
+        if !points.is_empty() {
+            chart = chart
+                .series(points, Style::points(marker, Colour::line(colour)))
+                .label(label);
+        }
+    }
+    chart
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::progress::Silent;
+    use crate::schemes::Tuner;
+
+    fn value(re: f64, im: f64, multiplicity: usize, geometric: usize) -> Eigenvalue {
+        Eigenvalue {
+            value: (re, im),
+            fourier: Some(1),
+            multiplicity,
+            geometric: Some(geometric),
+        }
+    }
+
+    #[test]
+    fn kinds_of_eigenvalues() {
+        assert!(kind(&value(0.5, 0.0, 2, 2)) == Kind::Positive);
+        assert!(kind(&value(-0.5, 0.0, 2, 2)) == Kind::Negative);
+        assert!(kind(&value(0.5, 0.1, 2, 2)) == Kind::Complex);
+        assert!(kind(&value(0.5, 0.0, 4, 2)) == Kind::Defective);
+    }
+
+    #[test]
+    fn tables_hold_the_whole_spectrum() -> Result<(), Error> {
+        let studies = crate::figures::Studies::load(None, &[], &Silent)?;
+        let (schemes, tuner) = (ENTRY.default_schemes()?, Tuner::default());
+        let inputs = Inputs {
+            valences: &[3, 20],
+            lambdas: &[],
+            schemes: &schemes,
+            colours: None,
+            range: (0.15, 0.9),
+            width: Width::One,
+            studies: &studies,
+            tuner: &tuner,
+        };
+        let drawing = build(&inputs)?.remove(0);
+        let csv = drawing.data[0].1.render(crate::table::Format::Csv);
+        let rows: Vec<Vec<&str>> = csv
+            .lines()
+            .skip(1)
+            .map(|line| line.split(',').rev().collect())
+            .collect();
+        for valence in [3usize, 20] {
+            let shown = rows.iter().filter(|row| row[6] == valence.to_string());
+            let total: usize = shown.map(|row| row[1].parse::<usize>().unwrap()).sum();
+            let expected = schemes.iter().map(|argument| -> Result<usize, Error> {
+                let scheme = argument.scheme(valence, &tuner)?;
+                let sufficient = Sufficient::new(scheme.limit(), scheme.closed_rings()?)?;
+                Ok(sufficient.system.numbering().count())
+            });
+            assert_eq!(total, expected.sum::<Result<usize, Error>>()?);
+        }
+        Ok(())
+    }
+}

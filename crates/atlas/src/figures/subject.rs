@@ -1,0 +1,165 @@
+//! What the panels of a map show: a scheme at a valence, with the words above it.
+
+use super::Inputs;
+use crate::error::Error;
+use crate::schemes::{SchemeName, Tuner};
+use eigenring_scheme::{Scheme, Spec};
+use eigenring_tune::study::{LAMBDA_A, LAMBDA_M};
+
+/// A scheme around a centre.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    /// What it is called, with markup, without the valence.
+    pub title: String,
+    /// What it is called in tables.
+    pub name: String,
+    /// The valence.
+    pub valence: usize,
+    /// The scheme.
+    pub scheme: Scheme<f64>,
+}
+
+impl Subject {
+    fn new(argument: &SchemeName, valence: usize, tuner: &Tuner<'_>) -> Result<Self, Error> {
+        let title = match argument {
+            SchemeName::Spec(Spec::CatmullClark) => "Catmull-Clark".to_owned(),
+            SchemeName::Spec(Spec::DooSabin) => "Doo-Sabin".to_owned(),
+            SchemeName::Spec(Spec::DooSabinUniform) => "Doo-Sabin, uniform".to_owned(),
+            SchemeName::Spec(Spec::Stam { order }) => format!("Stam, order {order}"),
+            SchemeName::Spec(Spec::Morin { u0 }) => format!("Morin et al., $u_0$ = {u0}"),
+            SchemeName::Spec(Spec::Tension { order, u0 }) if *u0 == 1.0 => format!("tension, order {order}"),
+            SchemeName::Spec(Spec::Tension { order, u0 }) => format!("tension, order {order}, $u_0$ = {u0}"),
+            SchemeName::Spec(Spec::LambdaOptimal | Spec::Lambda { .. }) => {
+                let lambda = argument
+                    .member(valence, tuner)?
+                    .map_or(f64::NAN, |member| member.plane.lambda);
+                let symbol = match argument {
+                    SchemeName::Spec(Spec::LambdaOptimal) => "$λ_C^*$",
+                    _ => "$λ$",
+                };
+                format!("{symbol} = {}", four(lambda))
+            }
+            SchemeName::File(path) => path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+        };
+        let scheme = argument.scheme(valence, tuner)?;
+        Ok(Subject {
+            title,
+            name: scheme.name().to_owned(),
+            valence,
+            scheme,
+        })
+    }
+
+    /// The title with the valence.
+    pub fn full_title(&self) -> String {
+        format!("$N$ = {}, {}", self.valence, self.title)
+    }
+}
+
+/// Four decimals, without trailing zeros.
+fn four(number: f64) -> String {
+    let text = format!("{number:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// The chosen schemes at one valence.
+pub fn chosen(inputs: &Inputs<'_>, valence: usize) -> Result<Vec<Subject>, Error> {
+    let schemes = inputs.schemes.iter();
+    schemes
+        .map(|argument| Subject::new(argument, valence, inputs.tuner))
+        .collect()
+}
+
+/// The lambda-scheme at five featured lambdas, ascending: 0.35, lambda_A*, lambda_M*, lambda_C* and half way from there to lambda_r2
+/// (Ma, Wang and Ma 2023, Fig. 10); four where no lambda_r2 is known.
+pub fn featured(inputs: &Inputs<'_>, valence: usize) -> Result<Vec<Subject>, Error> {
+    let tuner = inputs.tuner;
+    let optimal = tuner.optimal(valence)?.plane.lambda;
+    let mut shown = vec![
+        ("$λ$", 0.35),
+        ("$λ_A^*$", LAMBDA_A),
+        ("$λ_M^*$", LAMBDA_M),
+        ("$λ_C^*$", optimal),
+    ];
+    if let Some(entry) = inputs.studies.entry(valence)? {
+        shown.push(("$λ_C^* + Δλ$", optimal + 0.5 * (entry.lambda_r2 - optimal)));
+    }
+    shown.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let subject = |(symbol, lambda)| {
+        let spec = Spec::Lambda {
+            lambda,
+            s: None,
+            weights: None,
+        };
+        let scheme = SchemeName::Spec(spec).scheme(valence, tuner)?;
+        Ok(Subject {
+            title: format!("{symbol} = {}", four(lambda)),
+            name: scheme.name().to_owned(),
+            valence,
+            scheme,
+        })
+    };
+    shown.into_iter().map(subject).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::{Studies, characteristic, natural, second_order, spectra};
+    use crate::progress::Silent;
+    use eigenring_figure::Width;
+
+    #[test]
+    fn panels_of_any_schemes_fit_both_widths() {
+        let studies = Studies::load(None, &[], &Silent).unwrap();
+        let specs = [
+            "catmull-clark",
+            "doo-sabin",
+            "tension:order=8",
+            "lambda:optimal",
+            "lambda:lambda=0.35",
+        ];
+        let schemes = specs.map(|spec| spec.parse::<SchemeName>().unwrap());
+        // Doo-Sabin has no second-order maps
+        let smooth = [schemes[2].clone(), schemes[4].clone()];
+        for width in [Width::One, Width::Two] {
+            for (entry, schemes, valences) in [
+                (natural::ENTRY, &schemes[..], &[3, 5, 8, 20][..]),
+                (natural::ENTRY, &[], &[3, 8, 20]),
+                (characteristic::ENTRY, &schemes, &[3, 20]),
+                (second_order::ENTRY, &smooth, &[4]),
+                (spectra::ENTRY, &schemes, &[3, 4, 8, 20]),
+            ] {
+                let inputs = Inputs {
+                    valences,
+                    lambdas: &[],
+                    schemes,
+                    colours: entry.colours,
+                    range: (0.15, 0.9),
+                    width,
+                    studies: &studies,
+                    tuner: &Tuner::default(),
+                };
+                for drawing in (entry.build)(&inputs).unwrap() {
+                    let faults = drawing.figure.layout().unwrap().faults();
+                    assert!(faults.is_empty(), "{} {width:?}: {faults:#?}", drawing.stem);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn titles() {
+        for (spec, title) in [
+            ("doo-sabin", "$N$ = 5, Doo-Sabin"),
+            ("tension:order=8", "$N$ = 5, tension, order 8"),
+            ("tension:order=6,u0=2", "$N$ = 5, tension, order 6, $u_0$ = 2"),
+            ("lambda:lambda=0.35", "$N$ = 5, $λ$ = 0.35"),
+            ("lambda:lambda=0.55,f2=0.25,f3=0.2", "$N$ = 5, $λ$ = 0.55"),
+            ("lambda:optimal", "$N$ = 5, $λ_C^*$ = 0.5597"),
+        ] {
+            let subject = Subject::new(&spec.parse().unwrap(), 5, &Tuner::default()).unwrap();
+            assert_eq!(subject.full_title(), title);
+        }
+    }
+}

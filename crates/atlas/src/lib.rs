@@ -1,0 +1,69 @@
+//! Schemes by name, from files or tuned on demand, and everything that the `eigenring` command prints of
+//! them, as a library.
+//!
+//! The crates below know one thing each: what a scheme is, what follows from it, how one is found, what can
+//! be proven of it, how a picture is drawn. This one puts them together. Its functions take plain values, and
+//! return plain data, a [`table::Table`] or a [`figures::Drawing`]; where a result goes is for the caller to
+//! say.
+//!
+//! ```
+//! use eigenring_atlas::schemes::{SchemeName, Tuner};
+//! use eigenring_atlas::spectrum::Analysis;
+//! use eigenring_atlas::table::Format;
+//!
+//! let name: SchemeName = "catmull-clark".parse()?;
+//! let scheme = name.scheme(5, &Tuner::default())?;
+//! let analysis = Analysis::of_scheme(&scheme, None, None)?;
+//! print!("{}", analysis.eigenvalues().render(Format::Text));
+//!
+//! // 1, then the subdominant eigenvalue, once for each of the blocks 1 and 4
+//! let [one, lambda] = [0, 1].map(|index| &analysis.spectrum.eigenvalues[index]);
+//! assert!((one.value.0 - 1.0).abs() < 1e-12 && one.multiplicity == 1);
+//! assert!((lambda.value.0 - 0.549988).abs() < 1e-6);
+//! assert_eq!((lambda.fourier, lambda.multiplicity), (Some(1), 2));
+//! # Ok::<(), eigenring_atlas::Error>(())
+//! ```
+//!
+//! | module | what it gives |
+//! |---|---|
+//! | [`schemes`] | a scheme from a name: `catmull-clark`, `lambda:optimal`, `file:my.toml`; the [`schemes::Tuner`] for what is not tabulated |
+//! | [`spectrum`], [`matrix`] | eigenvalues and limit stencils; the local matrix in the formats of other programs |
+//! | [`compare`] | schemes side by side over valences |
+//! | [`stencil`], [`tune`] | one member of the lambda-scheme; the best one |
+//! | [`certificates`], [`report`] | what is certified, checked again, summed up and printed |
+//! | [`curve`] | curves and surfaces of revolution |
+//! | [`run`], [`results`], [`tension`] | the studies behind `results/`, and its files as text |
+//! | [`figures`] | pictures with the tables of what they show |
+//! | [`index`], [`difference`] | what makes and checks `results/`, and comparing its files number by number |
+//! | [`table`], [`progress`], [`files`], [`cache`] | tables in four formats; telling of long work, and the one parallel loop; complete files; remembered stencils |
+//!
+//! **Surroundings.** Nothing here knows of command lines, terminals and exit codes. Whoever waits is told of
+//! progress through a [`progress::Progress`]. Work is parallel on the current pool of rayon, and no result
+//! depends on the number of threads. Files are read and written where a path is given; the user's cache is
+//! asked only by a [`schemes::Tuner`] that was given it.
+//!
+//! **Errors** are one enum, [`Error`]: what is wrong, with the offending value, and what is accepted in its
+//! place.
+
+pub mod cache;
+pub mod certificates;
+pub mod compare;
+pub mod curve;
+pub mod difference;
+mod error;
+pub mod figures;
+pub mod files;
+pub mod index;
+pub mod matrix;
+pub mod progress;
+pub mod report;
+pub mod results;
+pub mod run;
+pub mod schemes;
+pub mod spectrum;
+pub mod stencil;
+pub mod table;
+pub mod tension;
+pub mod tune;
+
+pub use error::{Accepted, Error, accepted_in};

@@ -1,0 +1,175 @@
+//! Certificates for people and programs.
+
+use crate::certificates::Confirmation;
+use crate::table::{Format, Table, pretty, short};
+use eigenring_certify::range::{RangeCertificate, Segment};
+use eigenring_certify::{Certificate, Check, Interval, Requirement, Statement, Status};
+use serde_json::{Value, json};
+
+fn enclosure(value: Option<Interval>) -> Option<Value> {
+    value.map(|value| json!([value.lo(), value.hi()]))
+}
+
+fn check_json(check: &Check) -> Value {
+    let witness = check.witness.as_ref().map(|witness| {
+        let data: serde_json::Map<String, Value> = witness
+            .data
+            .iter()
+            .filter_map(|(name, &value)| Some((name.clone(), enclosure(Some(value))?)))
+            .collect();
+        json!({ "text": witness.text, "data": data })
+    });
+    json!({
+        "name": check.name,
+        "status": check.status,
+        "holds": check.holds,
+        "rigorous": check.rigorous,
+        "margin": check.margin,
+        "enclosure": enclosure(check.enclosure),
+        "witness": witness,
+        "reached": check.reached,
+    })
+}
+
+/// A certificate, with the verdict on what is required.
+pub fn certificate(certificate: &Certificate, requirement: Requirement, format: Format) -> String {
+    let (holds, status) = requirement.verdict(&certificate.checks);
+    let (scheme, valence) = (certificate.input.name(), certificate.valence);
+    if format == Format::Json {
+        let checks: Vec<Value> = certificate.checks.iter().map(check_json).collect();
+        return pretty(&json!({
+            "scheme": scheme,
+            "valence": valence,
+            "require": requirement.name(),
+            "status": status,
+            "holds": holds,
+            "degree": certificate.degree,
+            "balanced": certificate.balanced,
+            "checks": checks,
+        }));
+    }
+    let mut table = Table::new(["check", "status", "margin", "value", "remark"]);
+    for check in &certificate.checks {
+        let remark = check.witness.as_ref().map(|witness| witness.text.clone());
+        table.push(vec![
+            check.name.name().into(),
+            check.status.to_string().into(),
+            check.margin.into(),
+            check.enclosure.map(|value| value.mid()).into(),
+            remark.or(check.reached.clone()).unwrap_or_default().into(),
+        ]);
+    }
+    let text = table.render(format);
+    match format {
+        Format::Text => format!(
+            "{scheme}, N = {valence}{}\n\n{text}\n{} is {status}\n",
+            certificate
+                .degree
+                .map_or(String::new(), |degree| format!(", regular surface of degree {degree}")),
+            requirement.name()
+        ),
+        _ => text,
+    }
+}
+
+/// The statements of a range certificate.
+const STATEMENTS: [Statement; 7] = [
+    Statement::RowSums,
+    Statement::Dominant,
+    Statement::Subdominant,
+    Statement::Regular,
+    Statement::Injective,
+    Statement::BoundedCurvature,
+    Statement::Strict,
+];
+
+fn segments_json(segments: &[Segment]) -> Vec<Value> {
+    let one = |segment: &Segment| {
+        json!({
+            "lambda": segment.lambda,
+            "status": segment.status,
+            "witness": segment.witness.as_ref().map(|witness| witness.text.clone()),
+        })
+    };
+    segments.iter().map(one).collect()
+}
+
+/// A certificate of a range, with the intervals on which the requirement holds.
+pub fn range(certificate: &RangeCertificate, requirement: Requirement, format: Format) -> String {
+    let required = certificate.required(requirement);
+    if format == Format::Json {
+        let checks: Vec<Value> = STATEMENTS
+            .iter()
+            .map(|&name| {
+                let segments = certificate.segments(name);
+                let (status, holds) = whole(&segments);
+                json!({ "name": name, "status": status, "holds": holds, "rigorous": status != Status::Undecided,
+                    "segments": segments_json(&segments) })
+            })
+            .collect();
+        let (status, holds) = whole(&required);
+        return pretty(&json!({
+            "scheme": "lambda",
+            "valence": certificate.valence,
+            "lambda": certificate.lambda,
+            "require": requirement.name(),
+            "status": status,
+            "holds": holds,
+            "segments": segments_json(&required),
+            "checks": checks,
+        }));
+    }
+    let mut table = Table::new(["statement", "from", "to", "status", "remark"]);
+    let lists = STATEMENTS
+        .iter()
+        .map(|&name| (name.to_string(), certificate.segments(name)));
+    for (name, segments) in lists.chain([(format!("= {}", requirement.name()), required.clone())]) {
+        for segment in segments {
+            table.push(vec![
+                name.clone().into(),
+                segment.lambda[0].into(),
+                segment.lambda[1].into(),
+                segment.status.to_string().into(),
+                segment.witness.map(|witness| witness.text).unwrap_or_default().into(),
+            ]);
+        }
+    }
+    let text = table.render(format);
+    match format {
+        Format::Text => {
+            let [start, end] = certificate.lambda;
+            let tiles: usize = certificate.tiles.values().map(Vec::len).sum();
+            format!(
+                "lambda-scheme, N = {}, every lambda from {} to {} ({tiles} tiles)\n\n{text}\n{} is {}\n",
+                certificate.valence,
+                short(start),
+                short(end),
+                requirement.name(),
+                whole(&required).0,
+            )
+        }
+        _ => text,
+    }
+}
+
+/// The status of a statement on a whole range: refuted if it is so somewhere, proven if it is so everywhere.
+fn whole(segments: &[Segment]) -> (Status, bool) {
+    let all = segments.iter().map(|segment| segment.status).reduce(Status::and);
+    let status = all.unwrap_or(Status::Undecided);
+    (status, status == Status::Proven)
+}
+
+/// What checking files again has shown.
+pub fn rechecks(rows: &[Confirmation], format: Format) -> String {
+    let mut table = Table::new(["file", "scheme", "valence", "result", "remark"]);
+    for row in rows {
+        table.push(vec![
+            row.path.display().to_string().into(),
+            row.what.clone().into(),
+            row.valence.into(),
+            if row.confirmed { "confirmed" } else { "NOT CONFIRMED" }.into(),
+            row.remark.clone().into(),
+        ]);
+    }
+    table.render(format)
+}

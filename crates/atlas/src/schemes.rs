@@ -1,0 +1,377 @@
+//! Schemes by name, from files, and tuned on demand.
+//!
+//! A [`SchemeName`] is a [`Spec`] or `file:PATH`. Names of the lambda-scheme are resolved by
+//! [`Spec::member`], which every caller shares; what the embedded table does not hold is asked of a
+//! [`Tuner`], which remembers what it found.
+
+use crate::cache::Cache;
+use crate::error::Error;
+use crate::progress::{Progress, Silent};
+use crate::run::minima_over_lambda;
+use crate::table::short;
+use eigenring_scheme::lambda::{Bounds, Domain, Member, Plane, Source, Untabulated};
+use eigenring_scheme::user::{Reading, UserScheme};
+use eigenring_scheme::{Corner, Definition, Scheme, Spec};
+use eigenring_tune::sweep::{Options, Problem};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+/// Weights given by users may miss a bound by this much: they are often printed to seven digits.
+const FEASIBILITY_TOLERANCE: f64 = 1e-6;
+
+/// A member of the lambda-scheme with weights that must be feasible, up to 1e-6. At valence 4, where f3 is
+/// mu, it is set to mu exactly.
+///
+/// `s` is that of the rule if not given; `phi` is the ratio alpha / beta, 6 in the paper.
+///
+/// # Errors
+/// Those of [`Member::given`], of [`Domain::new`] for phi, and of [`Domain::check`] for the weights.
+pub fn feasible(valence: usize, lambda: f64, s: Option<f64>, phi: f64, [f2, f3]: [f64; 2]) -> Result<Member, Error> {
+    let mut member = Member::given(valence, lambda, s, [f2, f3])?;
+    member.plane.phi = phi;
+    Domain::new(member.plane, Bounds::Sharp, 0.0)?.check(f2, f3, FEASIBILITY_TOLERANCE)?;
+    if valence == 4 {
+        member.f3 = member.plane.mu();
+    }
+    Ok(member)
+}
+
+/// Finds members of the lambda-scheme that the embedded table does not hold: in a cache, or by tuning with
+/// the default [`Options`].
+#[derive(Clone, Debug)]
+pub struct Tuner<'a> {
+    /// Where tuned members are remembered.
+    pub cache: Cache,
+    /// Who is told of the tuning.
+    pub progress: &'a dyn Progress,
+}
+
+impl Default for Tuner<'_> {
+    /// Nothing is remembered, and nobody told.
+    fn default() -> Self {
+        Tuner {
+            cache: Cache::default(),
+            progress: &Silent,
+        }
+    }
+}
+
+/// A tuned stencil as it is remembered.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct Tuned {
+    lambda: f64,
+    s: f64,
+    f2: f64,
+    f3: f64,
+    total: f64,
+}
+
+impl Tuner<'_> {
+    /// The member at lambda: that of the table where it reaches and s is that of the rule, else a tuned one.
+    ///
+    /// # Errors
+    /// Those of the plane, and of the tuning.
+    pub fn at(&self, valence: usize, lambda: f64, s: Option<f64>) -> Result<Member, Error> {
+        Member::at(valence, lambda, s, |wanted| self.tune(wanted, s))
+    }
+
+    /// The globally optimal member of a valence.
+    ///
+    /// # Errors
+    /// A valence below 3, or one for which the rule for s has no solution; those of the tuning.
+    pub fn optimal(&self, valence: usize) -> Result<Member, Error> {
+        Member::optimal(valence, |wanted| self.tune(wanted, None))
+    }
+
+    /// The member that a spec names, if it names one.
+    ///
+    /// # Errors
+    /// As [`Tuner::at`] and [`Tuner::optimal`].
+    pub fn member(&self, spec: &Spec, valence: usize) -> Result<Option<Member>, Error> {
+        let given = match spec {
+            Spec::Lambda { s, .. } => *s,
+            _ => None,
+        };
+        spec.member(valence, |wanted| self.tune(wanted, given))
+    }
+
+    /// What the table does not hold; `given` is the s that was asked for, if one was.
+    fn tune(&self, wanted: Untabulated, given: Option<f64>) -> Result<Member, Error> {
+        let options = Options::default();
+        let tuned = match wanted {
+            Untabulated::Optimal { valence } => {
+                let key = format!("N{valence}-optimal");
+                self.remembered(&key, &format!("the optimal stencil of N = {valence}"), || {
+                    let (found, _) = minima_over_lambda(valence, &options, self.progress)?;
+                    let best = found.optimum();
+                    Ok(Tuned {
+                        lambda: best.lambda,
+                        s: best.s,
+                        f2: best.minimum.f2,
+                        f3: best.minimum.f3,
+                        total: best.minimum.total,
+                    })
+                })?
+            }
+            Untabulated::At { plane } => {
+                let Plane { valence, lambda, s, .. } = plane;
+                let key = format!("N{valence}-lambda{lambda}-s{s}");
+                let given = given.map_or(String::new(), |s| format!(", s = {s}"));
+                self.remembered(&key, &format!("N = {valence}, lambda = {lambda}{given}"), || {
+                    let found = Problem::on_plane(plane, &options)?.search(options.starts)?;
+                    let best = found.lowest();
+                    Ok(Tuned {
+                        lambda,
+                        s,
+                        f2: best.f2,
+                        f3: best.f3,
+                        total: best.total,
+                    })
+                })?
+            }
+        };
+        let plane = match wanted {
+            Untabulated::Optimal { valence } => Plane::new(valence, tuned.lambda, tuned.s)?,
+            Untabulated::At { plane } => plane,
+        };
+        Ok(Member {
+            plane,
+            f2: tuned.f2,
+            f3: tuned.f3,
+            source: Source::Tuned,
+        })
+    }
+
+    fn remembered(&self, key: &str, what: &str, tune: impl FnOnce() -> Result<Tuned, Error>) -> Result<Tuned, Error> {
+        if let Some(tuned) = self.cache.get::<Tuned>(key) {
+            self.progress.note(&format!(
+                "{what} is not tabulated; remembered from an earlier run, E = {}",
+                short(tuned.total)
+            ));
+            return Ok(tuned);
+        }
+        let tuned = tune()?;
+        let kept = self.cache.put(key, &tuned);
+        let place = kept.map_or("not kept: no cache folder can be written".to_owned(), |path| {
+            format!("kept in {}", path.display())
+        });
+        self.progress.note(&format!(
+            "{what} is not tabulated; tuned now, E = {} ({place})",
+            short(tuned.total)
+        ));
+        Ok(tuned)
+    }
+}
+
+/// A scheme by name: a [`Spec`], or `file:PATH` for a scheme file.
+///
+/// ```
+/// use eigenring_atlas::schemes::{SchemeName, Tuner};
+///
+/// let name: SchemeName = "tension:order=6,u0=2".parse()?;
+/// assert_eq!(name.scheme(5, &Tuner::default())?.degree(), Some(5));
+/// # Ok::<(), eigenring_atlas::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub enum SchemeName {
+    /// A registered scheme.
+    Spec(Spec),
+    /// A scheme file.
+    File(PathBuf),
+}
+
+impl FromStr for SchemeName {
+    type Err = eigenring_scheme::Error;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text.strip_prefix("file:") {
+            Some(path) => Ok(SchemeName::File(PathBuf::from(path))),
+            None => Ok(SchemeName::Spec(text.parse()?)),
+        }
+    }
+}
+
+impl SchemeName {
+    /// The scheme around a centre of the given valence. A file is read with the default [`Reading`].
+    ///
+    /// # Errors
+    /// Those of the rules; [`Error::Read`] and [`Error::InFile`] for a file; those of the tuning where the
+    /// lambda-scheme is not tabulated.
+    pub fn scheme(&self, valence: usize, tuner: &Tuner<'_>) -> Result<Scheme<f64>, Error> {
+        match self {
+            SchemeName::File(path) => Ok(read_scheme(path, Reading::default())?.scheme(valence)?),
+            SchemeName::Spec(spec) => match tuner.member(spec, valence)? {
+                Some(member) => Ok(member.scheme(spec.to_string())?),
+                None => Ok(spec.scheme(valence)?),
+            },
+        }
+    }
+
+    /// The scheme at all corners, as far as it is known without tuning. A file is read now, and no more.
+    ///
+    /// # Errors
+    /// As [`read_scheme`].
+    pub fn definition(&self, reading: Reading) -> Result<Definition, Error> {
+        match self {
+            SchemeName::Spec(spec) => Ok(Definition::Family(spec.clone())),
+            SchemeName::File(path) => Ok(Definition::File(read_scheme(path, reading)?)),
+        }
+    }
+
+    /// The scheme around a corner. Around a centre without creases and knot intervals it is that of
+    /// [`SchemeName::scheme`]; around others nothing is tuned.
+    ///
+    /// # Errors
+    /// As [`SchemeName::scheme`]; [`eigenring_scheme::Error::Unsupported`] for a kind of corner that the
+    /// scheme has no rules for.
+    pub fn around(&self, corner: &Corner, tuner: &Tuner<'_>) -> Result<Scheme<f64>, Error> {
+        let definition = self.definition(Reading::default())?;
+        if let SchemeName::Spec(spec) = self
+            && corner.is_plain()
+            && corner.centre() == definition.centre()
+            && let Some(member) = tuner.member(spec, corner.sectors().sectors())?
+        {
+            return Ok(member.scheme(spec.to_string())?);
+        }
+        Ok(definition.around(corner)?)
+    }
+
+    /// The member of the lambda-scheme that is named, if it is one.
+    ///
+    /// # Errors
+    /// As [`Tuner::member`].
+    pub fn member(&self, valence: usize, tuner: &Tuner<'_>) -> Result<Option<Member>, Error> {
+        match self {
+            SchemeName::Spec(spec) => tuner.member(spec, valence),
+            SchemeName::File(_) => Ok(None),
+        }
+    }
+}
+
+/// Reads a scheme file, which is named after its file unless it names itself.
+///
+/// # Errors
+/// [`Error::Read`], and [`Error::InFile`] with what is wrong in it.
+pub fn read_scheme(path: &Path, reading: Reading) -> Result<UserScheme, Error> {
+    let text = crate::files::read(path)?;
+    UserScheme::parse(&text, &stem(path), reading).map_err(|error| Error::from(error).in_file(path))
+}
+
+/// The name of a scheme file without folder and extension.
+pub(crate) fn stem(path: &Path) -> String {
+    path.file_stem()
+        .map_or("scheme".into(), |stem| stem.to_string_lossy().into_owned())
+}
+
+/// Splits a list of specs at commas; a comma followed by `name=value` continues a spec's parameters.
+fn split(list: &str) -> Vec<String> {
+    let mut specs: Vec<String> = Vec::new();
+    for part in list.split(',') {
+        let continues = part.contains('=') && !part.contains(':');
+        match specs.last_mut() {
+            Some(spec) if continues => {
+                spec.push(',');
+                spec.push_str(part);
+            }
+            _ => specs.push(part.to_owned()),
+        }
+    }
+    specs
+}
+
+/// Schemes as a list `SPEC,SPEC,..`, each with its text. A piece `key=value` continues the spec before it.
+#[derive(Clone, Debug)]
+pub struct SchemeList(pub Vec<(String, SchemeName)>);
+
+impl FromStr for SchemeList {
+    type Err = eigenring_scheme::Error;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let parse = |spec: String| {
+            let scheme = spec.parse()?;
+            Ok((spec, scheme))
+        };
+        split(text)
+            .into_iter()
+            .map(parse)
+            .collect::<Result<_, _>>()
+            .map(SchemeList)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use eigenring_scheme::Centre;
+
+    #[test]
+    fn lists_of_specs_keep_parameters_together() {
+        assert_eq!(
+            split("catmull-clark,tension:order=6,u0=2,lambda:lambda=0.5,f2=0.2,f3=0.1,file:a.toml,lambda:optimal"),
+            [
+                "catmull-clark",
+                "tension:order=6,u0=2",
+                "lambda:lambda=0.5,f2=0.2,f3=0.1",
+                "file:a.toml",
+                "lambda:optimal"
+            ]
+        );
+    }
+
+    #[test]
+    fn weights_of_users_must_be_feasible() {
+        assert!(feasible(6, 0.55, None, 6.0, [0.25, 0.2]).is_ok());
+        let error = feasible(6, 0.55, None, 6.0, [0.9, 0.1]).unwrap_err();
+        assert!(
+            error.to_string().contains("f1") && error.accepted().is_some(),
+            "{error}"
+        );
+        assert!(feasible(6, f64::NAN, None, 6.0, [0.25, 0.2]).is_err());
+        assert!(feasible(6, 0.55, None, 6.0, [f64::NAN, 0.2]).is_err());
+        // valence 4: f3 must be mu, and is set to it exactly
+        let member = feasible(4, 0.5, None, 6.0, [0.25, 0.25 + 1e-8]).unwrap();
+        assert_eq!(member.f3, 0.25);
+        assert!(feasible(4, 0.5, None, 6.0, [0.25, 0.26]).is_err());
+    }
+
+    /// A name means the same to the libraries below and to a tuner, wherever both give it a meaning.
+    #[test]
+    fn names_mean_the_same_with_and_without_a_tuner() {
+        let tuner = Tuner::default();
+        for spec in [
+            "lambda:optimal",
+            "lambda:lambda=0.5",
+            "lambda:lambda=0.55,f2=0.25,f3=0.2,s=1.1",
+        ] {
+            let name: SchemeName = spec.parse().unwrap();
+            let spec: Spec = spec.parse().unwrap();
+            for valence in [3, 4, 6, 20] {
+                let (a, b) = (
+                    name.scheme(valence, &tuner).unwrap(),
+                    spec.scheme::<f64>(valence).unwrap(),
+                );
+                assert_eq!(a.name(), b.name());
+                for (a, b) in a.limit().passes().iter().zip(b.limit().passes()) {
+                    assert!(a.special() == b.special(), "{spec} at N = {valence}");
+                }
+            }
+        }
+        // around a plain corner it is the same scheme, and around others the family's
+        let name: SchemeName = "lambda:optimal".parse().unwrap();
+        let corner = Corner::closed(Centre::Vertex, 6).unwrap();
+        let (a, b) = (name.around(&corner, &tuner).unwrap(), name.scheme(6, &tuner).unwrap());
+        assert!(a.limit().passes()[0].special() == b.limit().passes()[0].special());
+        assert!(name.around(&Corner::fan(2).unwrap(), &tuner).is_ok());
+        // where only the tuner can help, the libraries refuse
+        for (spec, valence) in [
+            ("lambda:optimal", 22),
+            ("lambda:lambda=0.92", 5),
+            ("lambda:lambda=0.5,s=1.3", 5),
+        ] {
+            assert!(spec.parse::<Spec>().unwrap().scheme::<f64>(valence).is_err());
+        }
+        let tuned = tuner.at(5, 0.5, Some(1.3)).unwrap();
+        assert_eq!((tuned.source, tuned.plane.s), (Source::Tuned, 1.3));
+    }
+}

@@ -1,0 +1,310 @@
+//! Eigenvalues, Fourier indices and limit stencils of a scheme's local matrix, or of a matrix that somebody
+//! has.
+
+use crate::error::{Accepted, Error};
+use crate::table::{Format, Record, Table, short};
+use eigenring_scheme::{Lattice, Scheme, Site};
+use eigenring_spectral::{Eigenvalue, LocalSystem, Matrix, Spectrum, Sufficient, outer};
+use serde_json::{Map, Value, json};
+
+/// The most rings that are taken for meant: a block of 64 rings has 4160 rows.
+pub const MAX_RINGS: usize = 64;
+
+/// Entries of corresponding sectors in a matrix may differ by this much relative to the largest: files are
+/// often printed to ten digits.
+const CIRCULANT_TOLERANCE: f64 = 1e-9;
+
+/// Row sums further than this from 1 are worth a warning: beyond the rounding of printed weights.
+const AFFINE: f64 = 1e-12;
+
+/// Refuses rings out of range, given the smallest closed number.
+///
+/// # Errors
+/// [`Error::Range`].
+pub(crate) fn check_rings(rings: usize, closed: usize) -> Result<usize, Error> {
+    if (closed..=MAX_RINGS).contains(&rings) {
+        return Ok(rings);
+    }
+    Err(Error::Range {
+        what: "number of rings",
+        given: rings.to_string(),
+        accepted: format!("{closed} (the smallest closed set) to {MAX_RINGS}"),
+    })
+}
+
+/// A local matrix with its spectrum.
+///
+/// Blocks k and N-k share their spectrum: eigenvalues are listed once, with `fourier = k <= N/2` and the
+/// multiplicity in the whole matrix, by falling modulus.
+#[derive(Clone, Debug)]
+pub struct Analysis {
+    /// What it is the matrix of.
+    pub name: String,
+    /// The matrix, in blocks where it has them.
+    pub system: LocalSystem,
+    /// The smallest closed number of rings, and the largest modulus of the eigenvalues outside of it; unknown
+    /// for a matrix.
+    pub closed: Option<(usize, f64)>,
+    /// Its eigenvalues.
+    pub spectrum: Spectrum,
+}
+
+impl Analysis {
+    /// Analyses a level of a scheme, by default the limit level, on so many rings of control points: by
+    /// default the smallest closed set, and one ring more where the eigenvalues outside of it are not
+    /// strictly below the subsubdominant one.
+    ///
+    /// # Errors
+    /// [`Error::Range`] for a number of rings that is not closed under refinement or beyond [`MAX_RINGS`];
+    /// those of the decomposition.
+    pub fn of_scheme(scheme: &Scheme<f64>, rings: Option<usize>, level: Option<usize>) -> Result<Self, Error> {
+        let level = level.map_or(scheme.limit(), |level| scheme.level(level));
+        let closed = scheme.closed_rings()?;
+        let (system, outer) = match rings {
+            Some(rings) => (
+                LocalSystem::new(level, check_rings(rings, closed)?)?,
+                outer(level, closed)?,
+            ),
+            None => {
+                let Sufficient { system, outer } = Sufficient::new(level, closed)?;
+                (system, outer)
+            }
+        };
+        Ok(Analysis {
+            name: scheme.name().to_owned(),
+            spectrum: system.spectrum()?,
+            system,
+            closed: Some((closed, outer)),
+        })
+    }
+
+    /// Analyses a matrix of a valence, whose points are in the order of the
+    /// [`Numbering`](eigenring_scheme::Numbering).
+    ///
+    /// # Errors
+    /// Those of [`LocalSystem::from_matrix`] and of the decomposition.
+    pub fn of_matrix(name: impl Into<String>, matrix: &Matrix<f64>, valence: usize) -> Result<Self, Error> {
+        let system = LocalSystem::from_matrix(matrix, valence, CIRCULANT_TOLERANCE)?;
+        Ok(Analysis {
+            name: name.into(),
+            spectrum: system.spectrum()?,
+            system,
+            closed: None,
+        })
+    }
+
+    /// A warning if rows do not sum to 1.
+    pub fn warning(&self) -> Option<String> {
+        let defect = self.system.row_sum_defect();
+        (defect > AFFINE)
+            .then(|| format!("the rows of the local matrix do not sum to 1: the largest defect is {defect:e}"))
+    }
+
+    /// What the list of eigenvalues does not say by itself: rings beyond the smallest closed set, a defective
+    /// subdominant eigenvalue.
+    pub fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        let rings = self.system.numbering().rings;
+        if let Some((closed, outer)) = self.closed
+            && rings > closed
+        {
+            let reason = format!(
+                "eigenvalues up to {} appear with the rings beyond {closed}",
+                short(outer)
+            );
+            let count = if rings == 1 {
+                "1 ring".to_owned()
+            } else {
+                format!("{rings} rings")
+            };
+            notes.push(format!("{count}, the smallest closed set has {closed}: {reason}"));
+        }
+        if let Some(lambda) = self.spectrum.subdominant() {
+            // equal to the subdominant one, in any block
+            let same = self.spectrum.eigenvalues.iter().filter(|e| e.is_close(lambda));
+            for e in same.filter(|e| e.is_defective()) {
+                notes.push(format!(
+                    "the subdominant eigenvalue {} is defective (index {}): the usual criterion for C1 does not apply",
+                    short(e.modulus()),
+                    e.fourier.map_or("-".to_owned(), |index| index.to_string()),
+                ));
+            }
+        }
+        notes
+    }
+
+    /// Scheme, valence, rings and points, subdominant and subsubdominant eigenvalue (the modulus of a complex
+    /// one), and their ratio s.
+    pub fn head(&self) -> Record {
+        let (numbering, spectrum) = (self.system.numbering(), &self.spectrum);
+        let lattice = match numbering.lattice {
+            Lattice::Vertex => "vertex",
+            Lattice::Face => "face",
+        };
+        let signed = |e: &Eigenvalue| if e.value.1 == 0.0 { e.value.0 } else { e.modulus() };
+        Record::default()
+            .with("scheme", self.name.as_str())
+            .with("valence", self.system.valence())
+            .with("lattice", lattice)
+            .with("rings", numbering.rings)
+            .with("closed_rings", self.closed.map(|(closed, _)| closed))
+            .with("outer", self.closed.map(|(_, outer)| outer))
+            .with("points", numbering.count())
+            .with("subdominant", spectrum.subdominant().map(signed))
+            .with("subsubdominant", spectrum.subsubdominant().map(signed))
+            .with("s", spectrum.curvature_ratio())
+    }
+
+    /// The eigenvalues, by falling modulus.
+    pub fn eigenvalues(&self) -> Table {
+        let mut table = Table::new(["re", "im", "fourier", "multiplicity", "geometric"]);
+        for e in &self.spectrum.eigenvalues {
+            table.push(vec![
+                e.value.0.into(),
+                e.value.1.into(),
+                e.fourier.into(),
+                e.multiplicity.into(),
+                e.geometric.into(),
+            ]);
+        }
+        table
+    }
+
+    /// Everything as a JSON object.
+    pub fn json(&self) -> Map<String, Value> {
+        let mut object = self.head().json();
+        object.insert("eigenvalues".to_owned(), self.eigenvalues().json());
+        object.insert("limit_stencils".to_owned(), Limits::new(self).json());
+        object.insert("notes".to_owned(), json!(self.notes()));
+        object
+    }
+
+    /// Everything for people; of the limit stencils the weights in sector 0.
+    pub fn text(&self) -> String {
+        let notes = self.notes();
+        format!(
+            "{}{}\n{}\n{}",
+            self.head().text(),
+            notes.iter().map(|text| format!("note: {text}\n")).collect::<String>(),
+            self.eigenvalues().render(Format::Text),
+            Limits::new(self).text()
+        )
+    }
+}
+
+/// The limit stencils, or why there are none.
+struct Limits {
+    position: Result<Vec<f64>, eigenring_spectral::Error>,
+    tangents: Result<[Vec<f64>; 2], eigenring_spectral::Error>,
+    /// Name and index of each point of sector 0 (and the centre), for people.
+    points: Vec<(String, usize)>,
+    all: Value,
+}
+
+impl Limits {
+    fn new(analysis: &Analysis) -> Self {
+        let system = &analysis.system;
+        let sites = system.numbering().sites();
+        let name = |site: &Site| match (site.x, site.y) {
+            (0, 0) => "V".to_owned(),
+            (x, y) => format!("P_i({},{})", x / 2, y / 2),
+        };
+        let lambda = analysis
+            .spectrum
+            .eigenvalues
+            .iter()
+            .find(|e| e.fourier == Some(1) && e.value.1 == 0.0);
+        let tangents = match lambda {
+            Some(lambda) => system.limit_tangents(lambda.value.0),
+            None => Err(eigenring_spectral::Error::NotSymmetric),
+        };
+        Limits {
+            position: system.limit_position(),
+            tangents,
+            points: sites
+                .iter()
+                .enumerate()
+                .filter(|(_, site)| site.sector == 0)
+                .map(|(index, site)| (name(site), index))
+                .collect(),
+            all: sites
+                .iter()
+                .map(|site| json!([site.sector, site.x / 2, site.y / 2]))
+                .collect(),
+        }
+    }
+
+    fn json(&self) -> Value {
+        let errors = [self.position.as_ref().err(), self.tangents.as_ref().err()];
+        let missing: Vec<String> = errors.into_iter().flatten().map(ToString::to_string).collect();
+        json!({
+            "points": self.all,
+            "position": self.position.as_ref().ok(),
+            "tangent_x": self.tangents.as_ref().ok().map(|t| &t[0]),
+            "tangent_y": self.tangents.as_ref().ok().map(|t| &t[1]),
+            "missing": missing,
+        })
+    }
+
+    fn text(&self) -> String {
+        let mut text = String::from(
+            "limit stencils (weights in sector 0; tangents dual to the natural configuration with E_0 = (1,0))\n",
+        );
+        let mut table = Table::new(["point", "position", "tangent_x", "tangent_y"]);
+        for (name, index) in &self.points {
+            table.push(vec![
+                name.as_str().into(),
+                self.position.as_ref().ok().map(|p| p[*index]).into(),
+                self.tangents.as_ref().ok().map(|t| t[0][*index]).into(),
+                self.tangents.as_ref().ok().map(|t| t[1][*index]).into(),
+            ]);
+        }
+        text.push_str(&table.render(Format::Text));
+        for error in [self.position.as_ref().err(), self.tangents.as_ref().err()]
+            .into_iter()
+            .flatten()
+        {
+            text.push_str(&format!("not defined: {error}\n"));
+        }
+        text
+    }
+}
+
+/// Reads a matrix from CSV without header. That it is square is for [`Analysis::of_matrix`] to demand.
+///
+/// # Errors
+/// [`Error::Content`] with row and column, counted from 1.
+pub fn parse_matrix(text: &str) -> Result<Matrix<f64>, Error> {
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .trim(csv::Trim::All)
+        .from_reader(text.as_bytes());
+    let mut rows: Vec<Vec<f64>> = Vec::new();
+    for (index, record) in reader.records().enumerate() {
+        let record = record.map_err(|error| Error::content(error.to_string()))?;
+        let number = |(column, entry): (usize, &str)| match entry.parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(number),
+            _ => Err(Error::refused(
+                format!("row {}, column {}: '{entry}' is no number", index + 1, column + 1),
+                Accepted::Are("finite ones".to_owned()),
+            )),
+        };
+        let row = record
+            .iter()
+            .enumerate()
+            .map(number)
+            .collect::<Result<Vec<f64>, Error>>()?;
+        if let Some(first) = rows.first()
+            && row.len() != first.len()
+        {
+            return Err(Error::refused(
+                format!("row {} has {} entries, row 1 has {}", index + 1, row.len(), first.len()),
+                Accepted::Are("rows of equal length".to_owned()),
+            ));
+        }
+        rows.push(row);
+    }
+    let columns = rows.first().map_or(0, Vec::len);
+    Ok(Matrix::from_rows(rows, columns))
+}
