@@ -62,7 +62,7 @@ impl Untabulated {
     /// Refuses it, with what is tabulated.
     ///
     /// # Errors
-    /// Always: [`Error::NotTabulated`], [`Error::OutsideSpline`], or [`Error::GivenRelaxation`] where valence
+    /// Always: [`Error::NotTabulated`], [`Error::Spline`], or [`Error::GivenRelaxation`] where valence
     /// and lambda are tabulated and the splines belong to the s of the rule.
     pub fn refuse(self) -> Result<Member, Error> {
         let table = LambdaTable::embedded()?;
