@@ -9,9 +9,9 @@ use crate::schemes::{SchemeName, Tuner, read_scheme, stem};
 use crate::table::Table;
 use eigenring_certify::range::{Curve, RangeCertificate, recheck_range_text};
 use eigenring_certify::{Certificate, Input, Requirement, Statement, Status, recheck_text};
-use eigenring_scheme::Spec;
 use eigenring_scheme::lambda::LambdaTable;
 use eigenring_scheme::user::Reading;
+use eigenring_scheme::{Shape, Spec};
 use eigenring_tune::study::{LAMBDA_A, LAMBDA_M};
 use std::path::{Path, PathBuf};
 
@@ -35,6 +35,35 @@ pub fn input(scheme: &SchemeName, valence: usize, reading: Reading, tuner: &Tune
             Some(member) => Input::member(&member),
             None => Input::from_spec(spec, valence)?,
         }),
+    }
+}
+
+/// What is certified of a named scheme around any corner; see [`input`] for closed fans of like sectors.
+///
+/// # Errors
+/// As [`SchemeName::around`].
+pub fn beside(
+    scheme: &SchemeName,
+    shape: &Shape,
+    steps: Option<usize>,
+    reading: Reading,
+    tuner: &Tuner<'_>,
+) -> Result<Input, Error> {
+    match (scheme, shape, steps) {
+        (_, &Shape::Closed { sectors }, None) => input(scheme, sectors, reading, tuner),
+        (SchemeName::Spec(spec), ..) => Ok(Input::Corner {
+            spec: spec.to_string(),
+            shape: shape.clone(),
+            steps,
+        }),
+        (SchemeName::File(_), ..) => {
+            // the reason is the definition's
+            scheme.around(&shape.corner(scheme.centre()?, steps)?, tuner)?;
+            Err(Error::Usage {
+                message: "files describe closed fans of like sectors".to_owned(),
+                accepted: "-N alone".to_owned(),
+            })
+        }
     }
 }
 

@@ -11,7 +11,7 @@ use crate::run::minima_over_lambda;
 use crate::table::short;
 use eigenring_scheme::lambda::{Bounds, Domain, Member, Plane, Source, Untabulated};
 use eigenring_scheme::user::{Reading, UserScheme};
-use eigenring_scheme::{Corner, Definition, Scheme, Spec};
+use eigenring_scheme::{Centre, Corner, Definition, Scheme, Spec};
 use eigenring_tune::sweep::{Options, Problem};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -237,6 +237,14 @@ impl SchemeName {
         Ok(definition.around(corner)?)
     }
 
+    /// What the scheme has in the middle of its closed fans.
+    ///
+    /// # Errors
+    /// Those of reading a file.
+    pub fn centre(&self) -> Result<Centre, Error> {
+        Ok(self.definition(Reading::default())?.centre())
+    }
+
     /// The member of the lambda-scheme that is named, if it is one.
     ///
     /// # Errors
@@ -303,7 +311,6 @@ impl FromStr for SchemeList {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use eigenring_scheme::Centre;
 
     #[test]
     fn lists_of_specs_keep_parameters_together() {

@@ -3,7 +3,7 @@
 
 use crate::error::{Accepted, Error};
 use crate::table::{Format, Record, Table, short};
-use eigenring_scheme::{Lattice, Scheme, Site};
+use eigenring_scheme::{Corner, Lattice, Scheme, Site};
 use eigenring_spectral::{Eigenvalue, LocalSystem, Matrix, Spectrum, Sufficient, outer};
 use serde_json::{Map, Value, json};
 
@@ -40,6 +40,8 @@ pub(crate) fn check_rings(rings: usize, closed: usize) -> Result<usize, Error> {
 pub struct Analysis {
     /// What it is the matrix of.
     pub name: String,
+    /// What the scheme sees, in the words of [`Corner`]; `closed` for a matrix.
+    pub corner: String,
     /// The matrix, in blocks where it has them.
     pub system: LocalSystem,
     /// The smallest closed number of rings, and the largest modulus of the eigenvalues outside of it; unknown
@@ -72,9 +74,26 @@ impl Analysis {
         };
         Ok(Analysis {
             name: scheme.name().to_owned(),
+            corner: "closed".to_owned(),
             spectrum: system.spectrum()?,
             system,
             closed: Some((closed, outer)),
+        })
+    }
+
+    /// The same of a scheme around a corner, which is named in what is printed.
+    ///
+    /// # Errors
+    /// As [`Analysis::of_scheme`].
+    pub fn of_corner(
+        scheme: &Scheme<f64>,
+        corner: &Corner,
+        rings: Option<usize>,
+        level: Option<usize>,
+    ) -> Result<Self, Error> {
+        Ok(Analysis {
+            corner: corner.to_string(),
+            ..Self::of_scheme(scheme, rings, level)?
         })
     }
 
@@ -87,6 +106,7 @@ impl Analysis {
         let system = LocalSystem::from_matrix(matrix, valence, CIRCULANT_TOLERANCE)?;
         Ok(Analysis {
             name: name.into(),
+            corner: "closed".to_owned(),
             spectrum: system.spectrum()?,
             system,
             closed: None,
@@ -144,6 +164,7 @@ impl Analysis {
         let signed = |e: &Eigenvalue| if e.value.1 == 0.0 { e.value.0 } else { e.modulus() };
         Record::default()
             .with("scheme", self.name.as_str())
+            .with("corner", self.corner.as_str())
             .with("valence", self.system.valence())
             .with("lattice", lattice)
             .with("rings", numbering.rings)
@@ -157,7 +178,7 @@ impl Analysis {
 
     /// The eigenvalues, by falling modulus.
     pub fn eigenvalues(&self) -> Table {
-        let mut table = Table::new(["re", "im", "fourier", "multiplicity", "geometric"]);
+        let mut table = Table::new(["re", "im", "fourier", "multiplicity", "geometric", "jordan"]);
         for e in &self.spectrum.eigenvalues {
             table.push(vec![
                 e.value.0.into(),
@@ -165,9 +186,21 @@ impl Analysis {
                 e.fourier.into(),
                 e.multiplicity.into(),
                 e.geometric.into(),
+                self.jordan(e).into(),
             ]);
         }
         table
+    }
+
+    /// The sizes of an eigenvalue's Jordan blocks, falling, such as "2+1": those of one of two conjugate Fourier
+    /// blocks. `None` where it has as many eigenvectors as its multiplicity.
+    fn jordan(&self, eigenvalue: &Eigenvalue) -> Option<String> {
+        let block = self.system.blocks().get(eigenvalue.fourier.unwrap_or(0))?;
+        let sizes = eigenvalue
+            .is_defective()
+            .then(|| block.jordan_sizes(eigenvalue.value).ok())??;
+        let texts: Vec<String> = sizes.iter().map(usize::to_string).collect();
+        Some(texts.join("+"))
     }
 
     /// Everything as a JSON object.
@@ -196,7 +229,9 @@ impl Analysis {
 struct Limits {
     position: Result<Vec<f64>, eigenring_spectral::Error>,
     tangents: Result<[Vec<f64>; 2], eigenring_spectral::Error>,
-    /// Name and index of each point of sector 0 (and the centre), for people.
+    /// Whether sector 0 stands for all.
+    symmetric: bool,
+    /// Name and index of each point that is shown to people: of sector 0 where it stands for all, and the centre.
     points: Vec<(String, usize)>,
     all: Value,
 }
@@ -205,10 +240,12 @@ impl Limits {
     fn new(analysis: &Analysis) -> Self {
         let system = &analysis.system;
         let sites = system.numbering().sites();
-        let name = |site: &Site| match (site.x, site.y) {
+        let name = |site: &Site, symmetric: bool| match (site.x, site.y) {
             (0, 0) => "V".to_owned(),
-            (x, y) => format!("P_i({},{})", x / 2, y / 2),
+            (x, y) if symmetric => format!("P_i({},{})", x / 2, y / 2),
+            (x, y) => format!("P_{}({},{})", site.sector, x / 2, y / 2),
         };
+        let symmetric = system.symmetric();
         let lambda = analysis
             .spectrum
             .eigenvalues
@@ -216,16 +253,18 @@ impl Limits {
             .find(|e| e.fourier == Some(1) && e.value.1 == 0.0);
         let tangents = match lambda {
             Some(lambda) => system.limit_tangents(lambda.value.0),
-            None => Err(eigenring_spectral::Error::NotSymmetric),
+            // without blocks: of the pair after 1, equal or not
+            None => system.pair_functionals(&analysis.spectrum),
         };
         Limits {
             position: system.limit_position(),
             tangents,
+            symmetric,
             points: sites
                 .iter()
                 .enumerate()
-                .filter(|(_, site)| site.sector == 0)
-                .map(|(index, site)| (name(site), index))
+                .filter(|(_, site)| !symmetric || site.sector == 0)
+                .map(|(index, site)| (name(site, symmetric), index))
                 .collect(),
             all: sites
                 .iter()
@@ -247,9 +286,12 @@ impl Limits {
     }
 
     fn text(&self) -> String {
-        let mut text = String::from(
-            "limit stencils (weights in sector 0; tangents dual to the natural configuration with E_0 = (1,0))\n",
-        );
+        let mut text = if self.symmetric {
+            "limit stencils (weights in sector 0; tangents dual to the natural configuration with E_0 = (1,0))\n"
+        } else {
+            "limit stencils (weights in all sectors; tangents dual to the eigenvectors of the pair)\n"
+        }
+        .to_owned();
         let mut table = Table::new(["point", "position", "tangent_x", "tangent_y"]);
         for (name, index) in &self.points {
             table.push(vec![

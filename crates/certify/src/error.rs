@@ -21,6 +21,14 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
+    /// The valence of a certificate is the number of sectors of its corner.
+    #[error("a corner of {found} sectors at valence {valence}: accepted is {found}")]
+    Sectors {
+        /// Sectors of the corner.
+        found: usize,
+        /// The valence that was given.
+        valence: usize,
+    },
     /// The net is too large to be certified.
     #[error("the local matrix has blocks of {size} unknowns: accepted are at most {maximum}")]
     Size {

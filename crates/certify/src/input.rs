@@ -12,7 +12,7 @@ use crate::{Error, Interval};
 use eigenring_scheme::families::tension;
 use eigenring_scheme::lambda::{Member, Plane, Source, Untabulated};
 use eigenring_scheme::user::{Balance, Reading, UserScheme};
-use eigenring_scheme::{Exact, Level, OneRing, Same, Scalar, Scheme, Spec, Taps};
+use eigenring_scheme::{Definition, Exact, Level, OneRing, Same, Scalar, Scheme, Shape, Spec, Taps};
 use serde::{Deserialize, Serialize};
 
 /// A scheme, exactly; see the module page.
@@ -23,6 +23,15 @@ pub enum Input {
     Family {
         /// The spec.
         spec: String,
+    },
+    /// A family beside a boundary, a crease, a fixed vertex or knot intervals, which are the numbers that their doubles are.
+    Corner {
+        /// The spec.
+        spec: String,
+        /// What the scheme sees.
+        shape: Shape,
+        /// In how many smoothing steps creases act; all if absent.
+        steps: Option<usize>,
     },
     /// The lambda-scheme at the numbers that these doubles are.
     Lambda {
@@ -85,7 +94,7 @@ impl Input {
     /// The scheme's name.
     pub fn name(&self) -> String {
         match self {
-            Input::Family { spec } => spec.clone(),
+            Input::Family { spec } | Input::Corner { spec, .. } => spec.clone(),
             Input::Lambda { lambda, s, f2, f3 } => match f3 {
                 Some(f3) => format!("lambda:lambda={lambda},f2={f2},f3={f3},s={s}"),
                 None => format!("lambda:lambda={lambda},f2={f2},f3=mu,s={s}"),
@@ -129,6 +138,28 @@ impl Input {
                     affine_levels: spec
                         .order_and_tension()
                         .is_some_and(|(order, _)| affine_levels(valence, order)),
+                    balance: Balance::default(),
+                })
+            }
+            Input::Corner { spec, shape, steps } => {
+                let definition = Definition::Family(spec.parse()?);
+                let corner = shape.corner(definition.centre(), *steps)?;
+                let found = corner.sectors().sectors();
+                if found != valence {
+                    return Err(Error::Sectors { found, valence });
+                }
+                let exact = definition.exact(&corner)?;
+                let scheme = match &exact {
+                    Some(exact) if exact.leading().is_empty() => enclosed(exact),
+                    _ => definition.around(&corner)?,
+                };
+                Ok(Subject {
+                    scheme,
+                    exact,
+                    identities: None,
+                    floating: false,
+                    tends_like_tension: false,
+                    affine_levels: false,
                     balance: Balance::default(),
                 })
             }

@@ -1,10 +1,12 @@
 //! Arguments that several commands share.
 
+use crate::error::Error;
 use crate::progress::Terminal;
 use clap::{Args, ValueEnum};
 use eigenring_atlas::cache::Cache;
 use eigenring_atlas::schemes::Tuner;
 use eigenring_atlas::table::Format;
+use eigenring_scheme::Shape;
 use eigenring_scheme::lambda::Bounds;
 use eigenring_tune::objective::{Normalisation, Settings};
 use eigenring_tune::search::Starts;
@@ -40,6 +42,96 @@ pub fn finite(text: &str) -> Result<f64, String> {
 /// Reads a count, whose range is for the command to check.
 pub fn count(text: &str) -> Result<usize, String> {
     text.parse().map_err(|_| "accepted is a whole number".to_owned())
+}
+
+/// What the scheme sees at its centre: a closed fan of N sectors, unless an option says otherwise.
+#[derive(Args, Clone, Debug)]
+pub struct CornerArgs {
+    /// Valence; may be left out with --fan and --knots, which fix it
+    #[arg(short = 'N', long, value_name = "N", value_parser = valence, allow_negative_numbers = true)]
+    valence: Option<usize>,
+    /// A boundary vertex, or one side of a crease vertex, with so many faces
+    #[arg(long, value_name = "FACES", value_parser = count, allow_negative_numbers = true, conflicts_with_all = ["dart", "cusp", "knots"])]
+    fan: Option<usize>,
+    /// With --fan: the vertex is a corner, which stays where it is
+    #[arg(long, requires = "fan")]
+    corner: bool,
+    /// A vertex at which one crease ends
+    #[arg(long, conflicts_with_all = ["cusp", "knots"])]
+    dart: bool,
+    /// A vertex that stays where it is, without creases
+    #[arg(long, conflicts_with = "knots")]
+    cusp: bool,
+    /// Creases and fixed vertices act in the first C smoothing steps of each level only (even orders)
+    #[arg(long, value_name = "C", value_parser = count, allow_negative_numbers = true)]
+    cs: Option<usize>,
+    /// Knot intervals of the first edge of each spoke, separated by commas
+    #[arg(long, value_name = "D0,D1,..", value_delimiter = ',', value_parser = number, allow_hyphen_values = true)]
+    knots: Vec<f64>,
+    /// With --knots: the intervals of all further edges of each spoke; by default the same
+    #[arg(long, value_name = "A0,A1,..", value_delimiter = ',', value_parser = number, allow_hyphen_values = true, requires = "knots")]
+    next: Vec<f64>,
+}
+
+impl CornerArgs {
+    /// The shape, and in how many steps creases act.
+    ///
+    /// # Errors
+    /// A valence that is missing or is not that of the shape.
+    pub fn shape(&self) -> Result<(Shape, Option<usize>), Error> {
+        let fixed = match self.fan {
+            Some(faces) => Some(("--fan", faces)),
+            None if !self.knots.is_empty() => Some(("--knots", self.knots.len())),
+            None => None,
+        };
+        let sectors = match (fixed, self.valence) {
+            (Some((option, sectors)), Some(valence)) if valence != sectors => {
+                let message = format!("-N is {valence}, and {option} gives {sectors}");
+                return Err(Error::usage(message, format!("{sectors}, or no -N")));
+            }
+            (Some((_, sectors)), _) => sectors,
+            (None, Some(valence)) => valence,
+            (None, None) => {
+                return Err(Error::usage(
+                    "no valence is given",
+                    format!("-N with 3 to {MAX_VALENCE}"),
+                ));
+            }
+        };
+        let shape = if self.fan.is_some() {
+            Shape::Fan {
+                faces: sectors,
+                corner: self.corner,
+            }
+        } else if self.dart {
+            Shape::Dart { valence: sectors }
+        } else if self.cusp {
+            Shape::Cusp { valence: sectors }
+        } else if self.knots.is_empty() {
+            Shape::Closed { sectors }
+        } else {
+            let next = if self.next.is_empty() { &self.knots } else { &self.next };
+            Shape::Knots {
+                intervals: self.knots.clone(),
+                next: next.clone(),
+            }
+        };
+        Ok((shape, self.cs))
+    }
+
+    /// The valence alone, for what has no other corners.
+    ///
+    /// # Errors
+    /// A valence that is missing, or another corner.
+    pub fn plain(&self) -> Result<usize, Error> {
+        match self.shape()? {
+            (Shape::Closed { sectors }, None) => Ok(sectors),
+            _ => {
+                let message = "--fan, --corner, --dart, --cusp, --cs and --knots say what a scheme sees";
+                Err(Error::usage(message, "-N alone here"))
+            }
+        }
+    }
 }
 
 /// The output format.

@@ -37,6 +37,12 @@ impl From<eigenring_scheme::Error> for Error {
     }
 }
 
+impl From<eigenring_spline::Error> for Error {
+    fn from(error: eigenring_spline::Error) -> Self {
+        Error::Atlas(error.into())
+    }
+}
+
 fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -1,6 +1,7 @@
 //! What a scheme sees at a centre: how sectors are joined there, and what its spokes carry.
 
 use crate::{Error, Fan, Lattice};
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::hash::{Hash, Hasher};
 
@@ -54,6 +55,64 @@ impl Spoke {
 
 /// Fans with more sectors are a typing error rather than a corner: a dense local matrix would not fit into memory.
 pub const MAX_SECTORS: usize = 1000;
+
+/// A corner in few words: what certificates store and options say.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Shape {
+    /// A closed fan of like sectors.
+    Closed {
+        /// How many.
+        sectors: usize,
+    },
+    /// An open fan: a boundary vertex, or one side of a crease vertex.
+    Fan {
+        /// The number of faces.
+        faces: usize,
+        /// Whether the vertex is a corner.
+        corner: bool,
+    },
+    /// A vertex at which one crease ends.
+    Dart {
+        /// The valence.
+        valence: usize,
+    },
+    /// A fixed vertex without creases.
+    Cusp {
+        /// The valence.
+        valence: usize,
+    },
+    /// A closed fan with knot intervals.
+    Knots {
+        /// Of the first edge of each spoke.
+        intervals: Vec<f64>,
+        /// Of all further edges of each spoke.
+        next: Vec<f64>,
+    },
+}
+
+impl Shape {
+    /// The corner of this shape around a centre of the given kind, with creases that act in the given number of steps.
+    ///
+    /// # Errors
+    /// Those of the constructors of [`Corner`].
+    pub fn corner(&self, centre: Centre, steps: Option<usize>) -> Result<Corner, Error> {
+        let corner = match self {
+            &Shape::Closed { sectors } => Corner::closed(centre, sectors)?,
+            &Shape::Fan { faces, corner: false } => Corner::fan(faces)?,
+            &Shape::Fan { faces, corner: true } => Corner::fan(faces)?.fixed(),
+            &Shape::Dart { valence } => Corner::dart(valence)?,
+            &Shape::Cusp { valence } => Corner::cusp(valence)?,
+            Shape::Knots { intervals, next } => {
+                Corner::closed(centre, intervals.len())?.with_intervals(intervals, next)?
+            }
+        };
+        Ok(match steps {
+            Some(steps) => corner.with_steps(steps),
+            None => corner,
+        })
+    }
+}
 
 /// A centre with everything that decides the rules around it.
 ///

@@ -27,7 +27,7 @@ mod stencil;
 mod table;
 pub mod user;
 
-pub use corner::{Centre, Corner, MAX_SECTORS, Spoke};
+pub use corner::{Centre, Corner, MAX_SECTORS, Shape, Spoke};
 pub use definition::Definition;
 /// The number types that rules are generic over.
 pub use eigenring_spline::{BigRational, Dual, Same, Scalar};

@@ -96,6 +96,39 @@ impl Block<f64> {
         }
     }
 
+    /// The sizes of the Jordan blocks of an eigenvalue, falling, from the numbers of vectors that the powers of `S - value` map to
+    /// zero: each power adds one for every block that is at least as large. Ranks are judged by [`NULL`], so that an eigenvalue known to
+    /// half its digits, as a defective one is, has its blocks found up to size 2, and larger ones mostly.
+    ///
+    /// # Errors
+    /// [`Error::Decomposition`] as above.
+    pub fn jordan_sizes(&self, value: Complex<f64>) -> Result<Vec<usize>, Error> {
+        let shifted = match self.shifted(value) {
+            Shifted::Real(matrix) => Mat::from_fn(matrix.nrows(), matrix.nrows(), |i, j| c64::new(matrix[(i, j)], 0.0)),
+            Shifted::Complex(matrix) => matrix,
+        };
+        let mut power = shifted.clone();
+        let mut kernels = vec![0];
+        loop {
+            let kernel = nullity(power.clone(), (0.0, 0.0))?;
+            let known = kernels[kernels.len() - 1];
+            if kernel <= known || kernels.len() > shifted.nrows() {
+                break;
+            }
+            kernels.push(kernel);
+            power = &power * &shifted;
+        }
+        // how many blocks have at least size k
+        let at_least: Vec<usize> = kernels.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let mut sizes: Vec<usize> = Vec::new();
+        for (index, &count) in at_least.iter().enumerate() {
+            let next = at_least.get(index + 1).copied().unwrap_or(0);
+            sizes.extend(std::iter::repeat_n(index + 1, count.saturating_sub(next)));
+        }
+        sizes.reverse();
+        Ok(sizes)
+    }
+
     /// `S - value`.
     fn shifted(&self, value: Complex<f64>) -> Shifted {
         match self {

@@ -10,6 +10,16 @@ pub enum Error {
     /// Polynomial patches exist where the regular rules refine uniform B-splines.
     #[error("the regular rules are not those of a uniform B-spline of any degree: there are no patches to look at")]
     NotSpline,
+    /// There is no pair of eigenvalues whose eigenvectors span the tangent plane.
+    #[error(
+        "the eigenvalue {value}, {multiplicity}-fold, is not one of a real pair with two eigenvectors that leads all further ones"
+    )]
+    Pair {
+        /// Its modulus.
+        value: f64,
+        /// Its multiplicity.
+        multiplicity: usize,
+    },
     /// Fourier blocks exist for rotation-symmetric rules only.
     #[error("the rules differ from sector to sector: there are no Fourier blocks")]
     NotSymmetric,

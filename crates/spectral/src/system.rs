@@ -6,7 +6,7 @@
 //! The functionals of an eigenspace are the left eigenvectors dual to its modes, `l_i . r_j = delta_ij`.
 
 use crate::echelon::{Dual, PIVOT, dual, length, reciprocal, times};
-use crate::{Block, Error, Matrix, fourier_blocks, local_matrix, numbering};
+use crate::{Block, Eigenvalue, Error, Matrix, Spectrum, fourier_blocks, local_matrix, numbering};
 use eigenring_scheme::{Complex, Fan, FourierNet, Lattice, Level, Numbering, Scalar, Site};
 
 /// The local matrix of a level of refinement, in Fourier blocks if its rules are the same in all sectors.
@@ -286,6 +286,40 @@ impl LocalSystem {
             mode.functional.iter().map(|w| 2.0 * w.0).collect(),
             mode.functional.iter().map(|w| -2.0 * w.1).collect(),
         ])
+    }
+
+    /// The functionals of the pair of eigenvalues after the dominant one, of a system without Fourier blocks: left eigenvectors dual to
+    /// the right ones of a double eigenvalue, or of two different real ones, the larger first. Each is scaled so that its
+    /// right eigenvector has the value 1 at the first point where it does not vanish.
+    ///
+    /// # Errors
+    /// [`Error::Pair`] unless the two are real, have two eigenvectors and are larger in modulus than all others.
+    pub fn pair_functionals(&self, spectrum: &Spectrum) -> Result<[Vec<f64>; 2], Error> {
+        let others = spectrum.eigenvalues.get(1..).unwrap_or_default();
+        let refuse = |found: &Eigenvalue| Error::Pair {
+            value: found.modulus(),
+            multiplicity: found.multiplicity,
+        };
+        let (values, rest) = match others {
+            [double, rest @ ..] if double.multiplicity == 2 && double.geometric == Some(2) => (vec![double], rest),
+            [first, second, rest @ ..] if first.multiplicity == 1 && second.multiplicity == 1 => {
+                (vec![first, second], rest)
+            }
+            [first, ..] => return Err(refuse(first)),
+            [] => return Err(Error::NotSymmetric),
+        };
+        let least = values[values.len() - 1];
+        if values.iter().any(|e| e.value.1 != 0.0) || rest.first().is_some_and(|next| next.is_close(least)) {
+            return Err(refuse(least));
+        }
+        let mut functionals = Vec::new();
+        for e in values {
+            for mode in self.modes(0, e.value)? {
+                functionals.push(mode.functional.iter().map(|weight| weight.0).collect::<Vec<f64>>());
+            }
+        }
+        let pair: Result<[Vec<f64>; 2], _> = functionals.try_into();
+        pair.map_err(|_| refuse(least))
     }
 
     /// The only mode of a real eigenvalue of a block.

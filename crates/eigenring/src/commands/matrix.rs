@@ -1,6 +1,6 @@
 //! `eigenring matrix`: the local matrix in the formats of other programs, with its numbering.
 
-use crate::args;
+use crate::args::{self, CornerArgs};
 use crate::error::Error;
 use crate::files;
 use clap::{Args, ValueEnum};
@@ -24,9 +24,8 @@ pub struct Arguments {
     /// The scheme: see 'eigenring --help'
     #[arg(long, value_name = "SPEC")]
     scheme: SchemeName,
-    /// Valence
-    #[arg(short = 'N', long, value_name = "N", value_parser = args::valence, allow_negative_numbers = true)]
-    valence: usize,
+    #[command(flatten)]
+    corner: CornerArgs,
     /// Rings of control points; by default as many as 'eigenring spectrum' takes, mostly the smallest closed
     /// set
     #[arg(long, value_name = "R", value_parser = args::count, allow_negative_numbers = true)]
@@ -56,7 +55,9 @@ enum MatrixFormat {
 
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
-        let scheme = self.scheme.scheme(self.valence, &args::tuner())?;
+        let (shape, steps) = self.corner.shape()?;
+        let corner = shape.corner(self.scheme.centre()?, steps)?;
+        let scheme = self.scheme.around(&corner, &args::tuner())?;
         let matrix = LocalMatrix::new(&scheme, self.rings, self.level)?;
         let bytes = match self.format {
             MatrixFormat::Mtx => matrix.matrix_market().into_bytes(),

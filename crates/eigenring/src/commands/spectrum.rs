@@ -1,6 +1,6 @@
 //! `eigenring spectrum`: eigenvalues, Fourier indices and limit stencils of any scheme or matrix.
 
-use crate::args::{self, Output};
+use crate::args::{self, CornerArgs, Output};
 use crate::error::Error;
 use crate::files;
 use crate::progress::note;
@@ -21,7 +21,7 @@ use std::process::ExitCode;
 #[derive(Args, Debug)]
 #[command(group = ArgGroup::new("source").required(true))]
 #[command(
-    after_help = "Examples:\n  eigenring spectrum --scheme catmull-clark -N 5\n  eigenring spectrum --scheme tension:order=6,u0=2 -N 7 --level 0 --format json\n  eigenring spectrum --matrix S.csv -N 5"
+    after_help = "Examples:\n  eigenring spectrum --scheme catmull-clark -N 5\n  eigenring spectrum --scheme tension:order=6,u0=2 -N 7 --level 0 --format json\n  eigenring spectrum --scheme catmull-clark --fan 3           a boundary vertex with three faces\n  eigenring spectrum --scheme stam:order=6 --dart -N 5 --cs 1\n  eigenring spectrum --scheme catmull-clark --knots 1,2,1,3 --next 1,1,1,1\n  eigenring spectrum --matrix S.csv -N 5"
 )]
 pub struct Arguments {
     /// The scheme: see 'eigenring --help'
@@ -30,9 +30,8 @@ pub struct Arguments {
     /// A local matrix of your own (CSV without header), in the numbering that 'eigenring matrix' shows
     #[arg(long, value_name = "FILE", group = "source")]
     matrix: Option<PathBuf>,
-    /// Valence
-    #[arg(short = 'N', long, value_name = "N", value_parser = args::valence, allow_negative_numbers = true)]
-    valence: usize,
+    #[command(flatten)]
+    corner: CornerArgs,
     /// Rings of control points
     #[arg(long, value_name = "R", value_parser = args::count, allow_negative_numbers = true, conflicts_with = "matrix")]
     rings: Option<usize>,
@@ -47,10 +46,12 @@ impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         let analysis = match (&self.scheme, &self.matrix) {
             (Some(scheme), _) => {
-                let scheme = scheme.scheme(self.valence, &args::tuner())?;
-                Analysis::of_scheme(&scheme, self.rings, self.level)?
+                let (shape, steps) = self.corner.shape()?;
+                let corner = shape.corner(scheme.centre()?, steps)?;
+                let found = scheme.around(&corner, &args::tuner())?;
+                Analysis::of_corner(&found, &corner, self.rings, self.level)?
             }
-            (None, Some(path)) => analyse_file(path, self.valence)?,
+            (None, Some(path)) => analyse_file(path, self.corner.plain()?)?,
             // the parser demands one of them
             (None, None) => return Ok(ExitCode::from(2)),
         };

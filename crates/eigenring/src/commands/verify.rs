@@ -2,12 +2,12 @@
 
 mod all;
 
-use crate::args::{self, Output, Valences};
+use crate::args::{self, CornerArgs, Output, Valences};
 use crate::error::Error;
 use crate::files;
 use crate::progress::{Terminal, note};
 use clap::{ArgGroup, Args, ValueEnum};
-use eigenring_atlas::certificates::{confirm, curve, input};
+use eigenring_atlas::certificates::{beside, confirm, curve};
 use eigenring_atlas::progress::each;
 use eigenring_atlas::report;
 use eigenring_atlas::schemes::SchemeName;
@@ -33,9 +33,8 @@ pub struct Arguments {
     /// those of the splines
     #[arg(long, value_name = "SPEC", group = "what", conflicts_with_all = ["recheck", "all"])]
     scheme: Option<SchemeName>,
-    /// Valence
-    #[arg(short = 'N', long, value_name = "N", value_parser = args::valence, allow_negative_numbers = true, conflicts_with_all = ["recheck", "all"])]
-    valence: Option<usize>,
+    #[command(flatten)]
+    corner: CornerArgs,
     /// The lambda-scheme for every lambda from A to B
     #[arg(long, value_name = "A..B", group = "what", value_parser = range, allow_hyphen_values = true, conflicts_with_all = ["recheck", "all"])]
     lambda_range: Option<[f64; 2]>,
@@ -119,27 +118,23 @@ impl Arguments {
             all::make(&self.valences.0, &self.out)?;
             return Ok(ExitCode::SUCCESS);
         }
-        let valence = self.valence.ok_or_else(|| {
-            let accepted = format!("-N with 3 to {}", args::MAX_VALENCE);
-            Error::usage("no valence is given", accepted)
-        })?;
         match self.lambda_range {
-            Some(lambda) => self.over_range(valence, lambda),
-            None => self.at_valence(valence),
+            Some(lambda) => self.over_range(self.corner.plain()?, lambda),
+            None => self.at_corner(),
         }
     }
 
-    fn at_valence(&self, valence: usize) -> Result<ExitCode, Error> {
+    fn at_corner(&self) -> Result<ExitCode, Error> {
+        let (shape, steps) = self.corner.shape()?;
         let scheme = self.scheme.as_ref();
         let scheme = scheme.ok_or_else(|| Error::usage("no scheme is given", "--scheme SPEC"))?;
         let reading = if self.exact { Reading::Exact } else { Reading::Balanced };
         let tuner = args::tuner();
-        let input = input(scheme, valence, reading, &tuner)?;
-        if scheme
-            .scheme(valence, &tuner)?
-            .degree()
-            .is_some_and(|degree| degree >= LARGE)
-        {
+        let corner = shape.corner(scheme.centre()?, steps)?;
+        let valence = corner.sectors().sectors();
+        let input = beside(scheme, &shape, steps, reading, &tuner)?;
+        let degree = scheme.around(&corner, &tuner)?.degree();
+        if degree.is_some_and(|degree| degree >= LARGE) {
             note("patches of high degree have large blocks: this may take minutes");
         }
         let certificate = certify(input, valence)?;
