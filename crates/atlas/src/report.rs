@@ -40,6 +40,7 @@ pub fn certificate(certificate: &Certificate, requirement: Requirement, format: 
         return pretty(&json!({
             "scheme": scheme,
             "valence": valence,
+            "corner": certificate.input.corner(),
             "require": requirement.name(),
             "status": status,
             "holds": holds,
@@ -61,13 +62,16 @@ pub fn certificate(certificate: &Certificate, requirement: Requirement, format: 
     }
     let text = table.render(format);
     match format {
-        Format::Text => format!(
-            "{scheme}, N = {valence}{}\n\n{text}\n{} is {status}\n",
-            certificate
-                .degree
-                .map_or(String::new(), |degree| format!(", regular surface of degree {degree}")),
-            requirement.name()
-        ),
+        Format::Text => {
+            let corner = certificate.input.corner().filter(|corner| corner != "closed");
+            let corner = corner.map_or(String::new(), |corner| format!(", {corner}"));
+            let degree = certificate.degree;
+            let degree = degree.map_or(String::new(), |degree| format!(", regular surface of degree {degree}"));
+            format!(
+                "{scheme}, N = {valence}{corner}{degree}\n\n{text}\n{} is {status}\n",
+                requirement.name()
+            )
+        }
         _ => text,
     }
 }

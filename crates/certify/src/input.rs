@@ -107,6 +107,17 @@ impl Input {
         }
     }
 
+    /// What the scheme sees, in the words of [`Corner`](eigenring_scheme::Corner); `None` for a corner that does not exist.
+    pub fn corner(&self) -> Option<String> {
+        match self {
+            Input::Corner { spec, shape, steps } => {
+                let definition = Definition::Family(spec.parse().ok()?);
+                Some(shape.corner(definition.centre(), *steps).ok()?.to_string())
+            }
+            _ => Some("closed".to_owned()),
+        }
+    }
+
     /// The scheme's name with where it came from: `file:` before the name of a file's scheme, which is no name of ours.
     pub fn origin(&self) -> String {
         match self {

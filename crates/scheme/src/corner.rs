@@ -264,9 +264,9 @@ impl Corner {
     }
 
     /// What decides the rules, with intervals as bits so that they can be compared.
-    fn key(&self) -> (Fan, Centre, Vec<(bool, u64, u64)>, bool, Option<usize>) {
+    fn key(&self) -> impl Eq + Hash {
         let bits = |spoke: &Spoke| (spoke.sharp, spoke.interval.to_bits(), spoke.next.to_bits());
-        let spokes = self.spokes.iter().map(bits).collect();
+        let spokes: Vec<(bool, u64, u64)> = self.spokes.iter().map(bits).collect();
         (self.fan, self.centre, spokes, self.fixed, self.steps)
     }
 }

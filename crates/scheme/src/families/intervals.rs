@@ -31,7 +31,7 @@ pub fn with_intervals<S: Scalar>(name: &str, corner: &Corner) -> Result<Scheme<S
     if !fan.is_closed() || corner.has_creases() || corner.is_fixed() {
         return Err(refuse(accepted));
     }
-    let level: fn(&[Vec<f64>]) -> Result<Level<S>, Error> = match (corner.centre(), fan.sectors()) {
+    let level: Rules<S> = match (corner.centre(), fan.sectors()) {
         (Centre::Vertex, 4) => four_sectors,
         (Centre::SplitFace, _) => split_face,
         _ => return Err(refuse(accepted)),
@@ -55,6 +55,9 @@ pub fn with_intervals<S: Scalar>(name: &str, corner: &Corner) -> Result<Scheme<S
     let limit: Vec<Vec<f64>> = intervals.iter().map(first).collect();
     Ok(Scheme::new(name, leading, level(&limit)?))
 }
+
+/// The level of the intervals of each spoke.
+type Rules<S> = fn(&[Vec<f64>]) -> Result<Level<S>, Error>;
 
 /// Levels until the first eight edges of every spoke have one interval: more than any analysis around the centre reads.
 const LEADING: usize = 3;
