@@ -386,11 +386,16 @@ fn squares(subject: &Subject, spectrum: &Spectrum, lambda: &Subdominant, facts: 
                 found.indices.push(block.index);
             }
             // both saddles of valence 4 lie in block 2
-            (Some(true), 2) if valence == 4 && block.index == 2 && bounded && all_apart() => {
-                if near.iter().all(|&p| inner(p)) && facts.square_is_double(block.index, lambda.value) {
-                    found.positions.extend(near);
-                    found.indices.push(block.index);
-                }
+            (Some(true), 2)
+                if valence == 4
+                    && block.index == 2
+                    && bounded
+                    && all_apart()
+                    && near.iter().all(|&p| inner(p))
+                    && facts.square_is_double(block.index, lambda.value) =>
+            {
+                found.positions.extend(near);
+                found.indices.push(block.index);
             }
             // eigenvalues that are known as numbers
             _ if bounded && square.is_point() && all_apart() => {

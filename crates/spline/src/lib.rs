@@ -11,7 +11,7 @@
 //!   [`curve`].
 //! * **Patches**: a [`TensorPatch`] of uniform B-splines with its [`Jet`]s, and a [`bernstein::Polynomial`],
 //!   which is cut into quarters, multiplied and bounded.
-//! * **Quadrature**: [`quadrature::gauss_legendre`], to the last digit.
+//! * **Quadrature**: [`quadrature::gauss_legendre`].
 //!
 //! ```
 //! use eigenring_spline::TensorPatch;

@@ -23,8 +23,8 @@ use super::complex::Complex;
 use super::lanes::{Lanes, WIDTH};
 use super::rings::{FirstRing, Rings, to_bisector};
 use eigenring_scheme::lambda::Plane;
+use eigenring_spline::Scalar;
 use eigenring_spline::quadrature::gauss_legendre;
-use eigenring_spline::{Scalar, uniform};
 
 /// Derivatives of a field with respect to the patch parameters: u, v, uu, uv, vv.
 pub(super) type Derivatives = [Lanes; 5];
@@ -180,9 +180,25 @@ fn contract(grid: &Grid, p: usize, q: usize, basis: &[[f64; 4]; 3]) -> [[f64; 4]
     rows
 }
 
-/// The four uniform cubic B-splines on a unit interval at `t`, and their first and second derivatives.
+/// The four uniform cubic B-splines on a unit interval at `t`, and their first and second derivatives, as polynomials: the
+/// tabulated optima were found with the roundings of these.
 fn cubic(t: f64) -> [[f64; 4]; 3] {
-    uniform::basis(3, t).map(|functions| std::array::from_fn(|i| functions[i]))
+    let r = 1.0 - t;
+    [
+        [
+            r * r * r / 6.0,
+            (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0,
+            (4.0 - 6.0 * r * r + 3.0 * r * r * r) / 6.0,
+            t * t * t / 6.0,
+        ],
+        [
+            -r * r / 2.0,
+            (3.0 * t - 4.0) * t / 2.0,
+            (4.0 - 3.0 * r) * r / 2.0,
+            t * t / 2.0,
+        ],
+        [r, 3.0 * t - 2.0, 1.0 - 3.0 * t, t],
+    ]
 }
 
 /// A class of sectors by `t = exp(4 i phi)`: t and its square.
