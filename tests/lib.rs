@@ -1,7 +1,7 @@
 //! Shared pieces of the oracles: the reference cases, and a comparison that reports its worst entries.
 //!
-//! The cases under `data/` were computed once by an independent implementation in another language; they are facts to be
-//! met, never inputs of the program.
+//! The cases under `data/` were computed once by an independent implementation in another language; they are
+//! facts to be met, never inputs of the program.
 
 pub mod oracle;
 
@@ -60,7 +60,8 @@ pub fn tension_cases() -> Vec<TensionCase> {
     serde_json::from_str(include_str!("data/tension_scheme_cases.json")).expect("the committed file is a list of cases")
 }
 
-/// The eigenvalues block by block, `k = 0 .. N/2`, each as often as it is an eigenvalue of **its block**, by falling modulus.
+/// The eigenvalues block by block, `k = 0 .. N/2`, each as often as it is an eigenvalue of **its block**, by
+/// falling modulus.
 pub fn by_block(spectrum: &Spectrum, valence: usize) -> Vec<(Complex<f64>, usize)> {
     let in_block = |fourier: usize| if fourier == 0 || 2 * fourier == valence { 1 } else { 2 };
     let repeated = spectrum.eigenvalues.iter().flat_map(|e| {

@@ -468,8 +468,8 @@ fn every_case_is_in_the_table() {
     }
 }
 
-/// Lines that are no mirror images of themselves, and whose product is a B-spline's mask on a plain line: outwards on both
-/// sides of a spoke they are another rule.
+/// Lines that are no mirror images of themselves, and whose product is a B-spline's mask on a plain line:
+/// outwards on both sides of a spoke they are another rule.
 #[test]
 fn lines_that_lean_and_lean_back_are_no_spline() {
     for (file, n) in [

@@ -1,7 +1,8 @@
-//! **Claim**: rules beside boundaries, creases, darts, corners and cusps, with knot intervals, and around a face that is never
-//! split are what they should be. **Oracles**: eigenvalues and limits computed by an independent implementation in another
-//! language (`data/split_faces.json`, and the table below); curve rules; reflection of a regular net; blossoms; and one family
-//! against another that states its rules in other passes.
+//! **Claim**: rules beside boundaries, creases, darts, corners and cusps, with knot intervals, and around a
+//! face that is never split are what they should be. **Oracles**: eigenvalues and limits computed by an
+//! independent implementation in another language (`data/split_faces.json`, and the table below); curve
+//! rules; reflection of a regular net; blossoms; and one family against another that states its rules in
+//! other passes.
 
 use eigenring_scheme::{
     Centre, Corner, Definition, DenseNet, Error, Fan, Level, PointNet, Scheme, Site, Spec, Symmetry, refine,
@@ -30,7 +31,8 @@ fn close(found: &[f64], expected: &[f64], tolerance: f64) -> bool {
     found.len() >= expected.len() && found.iter().zip(expected).all(|(a, b)| (a - b).abs() < tolerance)
 }
 
-/// From the independent implementation, six digits, for the corners of its meshes; and closed forms where there are some.
+/// From the independent implementation, six digits, for the corners of its meshes; and closed forms where
+/// there are some.
 #[test]
 fn leading_eigenvalues_of_catmull_clark_at_corners() {
     let golden = (3.0 + 5.0_f64.sqrt()) / 8.0;
@@ -57,7 +59,8 @@ fn leading_eigenvalues_of_catmull_clark_at_corners() {
     ));
 }
 
-/// The open fan of n faces has the curve's 1, 1/2, 1/4 and the sine modes of the closed fan of 2n: its Fourier blocks 1 to n-1.
+/// The open fan of n faces has the curve's 1, 1/2, 1/4 and the sine modes of the closed fan of 2n: its
+/// Fourier blocks 1 to n-1.
 #[test]
 fn open_fans_have_the_sine_modes_of_the_double_fan() {
     for faces in 1..=8 {
@@ -133,7 +136,8 @@ fn catmull_clark_and_order_four_agree_at_every_corner() {
     }
 }
 
-/// A boundary is a mirror: on a regular net the rules are those of the net continued by `P(-j) = 2 P(0) - P(j)`.
+/// A boundary is a mirror: on a regular net the rules are those of the net continued by `P(-j) = 2 P(0) -
+/// P(j)`.
 #[test]
 fn a_regular_boundary_is_the_net_continued_by_reflection() {
     for order in [4, 6, 8] {
@@ -143,7 +147,8 @@ fn a_regular_boundary_is_the_net_continued_by_reflection() {
             let closed: Scheme<f64> = definition(&spec).around(&definition(&spec).closed(4).unwrap()).unwrap();
             let rings = 6;
             let value = |site: Site| (1.3 * f64::from(site.x) + 0.7 * f64::from(site.y) + site.sector as f64).sin();
-            // the open fan's sectors 0 and 1 are the upper half plane; spoke 2 of the closed fan continues spoke 0
+            // the open fan's sectors 0 and 1 are the upper half plane; spoke 2 of the closed fan continues
+            // spoke 0
             let reflected = |site: Site| {
                 let below = site.sector >= 2 && !(site.sector == 2 && site.y == 0);
                 if !below {
@@ -258,8 +263,9 @@ fn blossom(c: [f64; 4], [a, b, d]: [f64; 3]) -> f64 {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
 
-    /// Where four sectors meet, points are products of two blossoms at three knots each, and so are refined points at the knots
-    /// with all intervals halved: insertion of a knot in the middle of every interval, in both directions.
+    /// Where four sectors meet, points are products of two blossoms at three knots each, and so are refined
+    /// points at the knots with all intervals halved: insertion of a knot in the middle of every interval, in
+    /// both directions.
     #[test]
     fn valence_four_with_intervals_is_knot_insertion(
         d in proptest::array::uniform4(0.05..4.0_f64), a in proptest::array::uniform4(0.05..4.0_f64),

@@ -1,6 +1,8 @@
-//! **Claim**: curves and grids of any order and tension converge to generalised B-splines, which are evaluated at any
-//! parameter. **Oracles**: Lane and Riesenfeld's algorithm and de Boor's for tension 1; the basis as differences of truncated
-//! functions with 220 digits (`data/generalised_basis.json`); the integral recurrence from order to order; 34 levels of refinement; the family's own rule around a vertex or face of valence 4.
+//! **Claim**: curves and grids of any order and tension converge to generalised B-splines, which are
+//! evaluated at any parameter. **Oracles**: Lane and Riesenfeld's algorithm and de Boor's for tension 1; the
+//! basis as differences of truncated functions with 220 digits (`data/generalised_basis.json`); the integral
+//! recurrence from order to order; 34 levels of refinement; the family's own rule around a vertex or face of
+//! valence 4.
 
 use eigenring_scheme::families::{MAX_ORDER, tension};
 use eigenring_scheme::{Numbering, PointNet, Site, refine};
@@ -29,7 +31,8 @@ fn lane_riesenfeld(order: usize, points: &[Vec<f64>], closed: bool) -> Vec<Vec<f
     points
 }
 
-/// The same points counted as ours are: k-1 averages, each of a point and the next, move on by (k-1)/2 points.
+/// The same points counted as ours are: k-1 averages, each of a point and the next, move on by (k-1)/2
+/// points.
 fn turned(order: usize, mut points: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     let count = points.len();
     points.rotate_right((order - 1) / 2 % count);
@@ -109,7 +112,8 @@ fn the_family_at_valence_four_is_the_grid() {
         for u0 in [-0.4, 0.01, 0.5, 1.0, 2.0, 50.0] {
             let scheme = tension::<f64>(4, order, u0).unwrap();
             let numbering: Numbering = scheme.numbering(scheme.closed_rings().unwrap() + 1);
-            // a square of 2R+1 (even orders) or 2R+2 points; its middle lies `middle` half steps from the first
+            // a square of 2R+1 (even orders) or 2R+2 points; its middle lies `middle` half steps from the
+            // first
             let side = 2 * numbering.rings + 2 - usize::from(order % 2 == 0);
             let middle = side as i64 - 1;
             let grid_points = scattered(side * side);
@@ -145,7 +149,8 @@ fn the_family_at_valence_four_is_the_grid() {
     comparison.finish();
 }
 
-/// De Boor's algorithm on uniform knots: the point at parameter t of an open polygon whose knots are as documented.
+/// De Boor's algorithm on uniform knots: the point at parameter t of an open polygon whose knots are as
+/// documented.
 fn de_boor(order: usize, points: &[[f64; 2]], t: f64) -> [f64; 2] {
     let degree = order - 1;
     // point i has support from i + shift to i + shift + order
@@ -223,7 +228,8 @@ fn the_basis_to_many_digits() {
 
 #[test]
 fn orders_follow_by_averaging_over_a_step() {
-    // B_{k+1}(x) = integral of B_k over [x - 1/2, x + 1/2], by Simpson's rule with Richardson's two corrections
+    // B_{k+1}(x) = integral of B_k over [x - 1/2, x + 1/2], by Simpson's rule with Richardson's two
+    // corrections
     let mut comparison = Comparison::new("integral recurrence", 1e-10);
     for order in [4, 5, 7] {
         for u0 in [-0.5, 0.3, 1.0, 3.0] {
@@ -259,12 +265,14 @@ fn orders_follow_by_averaging_over_a_step() {
     comparison.finish();
 }
 
-/// Refines only what matters near t, until the tension is 1 to rounding; then the polynomial limit mask at the nearest point.
+/// Refines only what matters near t, until the tension is 1 to rounding; then the polynomial limit mask at
+/// the nearest point.
 fn deep_limit(order: usize, u0: f64, points: &[[f64; 2]], mut t: f64, levels: usize) -> [f64; 2] {
     let (mut window, mut u) = (points.to_vec(), u0);
     for _ in 0..levels {
         let fine = Curve::new(order, u, Ends::Open, &window).unwrap().refine().unwrap();
-        // the k points of the interval that t lies in; a new polygon counts its parameters from its own first point
+        // the k points of the interval that t lies in; a new polygon counts its parameters from its own first
+        // point
         let (start, _) = fine.axis().domain();
         let interval = (2.0 * (t - start)).floor().min(fine.axis().intervals() as f64 - 1.0);
         let first = interval as usize;

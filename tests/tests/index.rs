@@ -1,5 +1,5 @@
-//! `results/index.toml` says what is there and who checks it; this compares it with what is there. That its commands are
-//! accepted, and that they make these files, is what `eigenring reproduce --check` finds out.
+//! `results/index.toml` says what is there and who checks it; this compares it with what is there. That its
+//! commands are accepted, and that they make these files, is what `eigenring reproduce --check` finds out.
 
 use serde::Deserialize;
 use std::collections::BTreeSet;

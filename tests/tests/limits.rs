@@ -1,11 +1,13 @@
-//! **Claim**: the limit stencils are the limit of refinement. **Oracle**: refinement itself: a random net is refined m times
-//! by the passes, and never through a matrix. With the eigenvalues 1 > lambda > |mu| of a C1 scheme
+//! **Claim**: the limit stencils are the limit of refinement. **Oracle**: refinement itself: a random net is
+//! refined m times by the passes, and never through a matrix. With the eigenvalues 1 > lambda > |mu| of a C1
+//! scheme
 //!
 //! ```text
 //! P_i^m = p + lambda^m (x_i t1 + y_i t2) + O(mu^m)
 //! ```
 //!
-//! where p is the limit position, t1, t2 the limit tangents and (x_i, y_i) the natural configuration (Reif 1995).
+//! where p is the limit position, t1, t2 the limit tangents and (x_i, y_i) the natural configuration (Reif
+//! 1995).
 
 use eigenring_scheme::families::{catmull_clark, doo_sabin, tension};
 use eigenring_scheme::lambda::{Bounds, Domain, Relaxation};
@@ -89,10 +91,12 @@ fn refinement_converges_to_the_limit_stencils() {
                 }
                 if m == 0 {
                     first_remainder = remainder;
-                    // the net is not in the span of the first three eigenvectors, so there is something to converge
+                    // the net is not in the span of the first three eigenvectors, so there is something to
+                    // converge
                     assert!(remainder > 0.1, "{label}");
                 }
-                // 40: eigenvectors are not orthogonal, and defective eigenvalues below mu add powers of m. Measured: below 32.
+                // 40: eigenvectors are not orthogonal, and defective eigenvalues below mu add powers of m.
+                // Measured: below 32.
                 let bound = 40.0 * first_remainder * mu.powi(m) + 1e-13;
                 assert!(remainder <= bound, "{label}, m = {m}: {remainder} is more than {bound}");
                 net.points = refine(scheme.limit(), &net, &sites).unwrap();

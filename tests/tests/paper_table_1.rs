@@ -1,9 +1,11 @@
-//! **Claim**: lambda_l and lambda_CC of Ma, Wang and Ma (2023), Table 1, follow from the mathematics alone. **Oracle**: the
-//! printed table (`PAPER_TABLE_1`; the rows N = 7, 11, 13, 18 are missing in the text it was taken from), and for every
-//! N = 3..=20 the closed form of Catmull-Clark's subdominant eigenvalue against the spectrum of its local matrix.
+//! **Claim**: lambda_l and lambda_CC of Ma, Wang and Ma (2023), Table 1, follow from the mathematics alone.
+//! **Oracle**: the printed table (`PAPER_TABLE_1`; the rows N = 7, 11, 13, 18 are missing in the text it was
+//! taken from), and for every N = 3..=20 the closed form of Catmull-Clark's subdominant eigenvalue against
+//! the spectrum of its local matrix.
 //!
-//! The other columns: lambda_C* is compared with the embedded table (`embedded_table.rs`); lambda_r1, lambda_A*, lambda_M*
-//! are choices, and lambda_b, lambda_d positions of knots, with nothing to derive them from.
+//! The other columns: lambda_C* is compared with the embedded table (`embedded_table.rs`); lambda_r1,
+//! lambda_A*, lambda_M* are choices, and lambda_b, lambda_d positions of knots, with nothing to derive them
+//! from.
 
 use eigenring_scheme::families::catmull_clark;
 use eigenring_scheme::lambda::{PAPER_TABLE_1, Relaxation};

@@ -1,9 +1,10 @@
-//! **Claim**: every registered scheme is an affine-invariant scheme with the eigenstructure of a C1 scheme, and its Fourier
-//! blocks hold the spectrum of its local matrix. **Oracles**: row sums of the dense matrix; traces of its powers, which are
-//! sums of powers of all eigenvalues, repeated and defective ones included; its discrete Fourier transform; closed forms.
+//! **Claim**: every registered scheme is an affine-invariant scheme with the eigenstructure of a C1 scheme,
+//! and its Fourier blocks hold the spectrum of its local matrix. **Oracles**: row sums of the dense matrix;
+//! traces of its powers, which are sums of powers of all eigenvalues, repeated and defective ones included;
+//! its discrete Fourier transform; closed forms.
 //!
-//! The table [`expectation`] names every family. A family that is registered without an entry fails the test: what is new
-//! must say what it claims.
+//! The table [`expectation`] names every family. A family that is registered without an entry fails the test:
+//! what is new must say what it claims.
 
 use eigenring_scheme::lambda::{Bounds, Domain, LambdaTable, Relaxation};
 use eigenring_scheme::{Error, FourierNet, Lattice, Level, Numbering, Scheme, Site, Spec, Symmetry, registry};
@@ -98,7 +99,8 @@ fn of_tension(more: fn(usize) -> Vec<Spec>) -> Expectation {
     }
 }
 
-/// All schemes under test. Only a spec that needs the embedded table may be missing, and only while that is empty.
+/// All schemes under test. Only a spec that needs the embedded table may be missing, and only while that is
+/// empty.
 fn schemes() -> Vec<(Expectation, Spec, Scheme<f64>)> {
     let table_is_empty = LambdaTable::embedded().unwrap().valences.is_empty();
     let (mut schemes, mut left_out) = (Vec::new(), 0);

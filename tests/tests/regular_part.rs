@@ -1,6 +1,6 @@
-//! **Claim**: a level that is said to refine B-splines of degree d does so across every spoke. **Oracle**: where four sectors
-//! meet the lattice is the plane, and a point that no special stencil makes is the tensor product of two binomial masks; the
-//! places are worked out here, without the folding of the library.
+//! **Claim**: a level that is said to refine B-splines of degree d does so across every spoke. **Oracle**:
+//! where four sectors meet the lattice is the plane, and a point that no special stencil makes is the tensor
+//! product of two binomial masks; the places are worked out here, without the folding of the library.
 
 use eigenring_scheme::{Exact, Fan, Lattice, Level, Line, Pass, PointNet, Scalar, Site, refine};
 use proptest::prelude::*;

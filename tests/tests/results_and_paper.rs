@@ -1,6 +1,7 @@
-//! **Claim**: the stored results stand beside the paper as `docs/deviations.md` says. **Oracle**: Table 1 of Ma, Wang and Ma
-//! (2023), which none of these numbers was fitted to: the end of the recommended region lambda_r2, found here by a criterion of
-//! our own, and the tabulated knots lambda_b and lambda_d of N = 8, 9, 10, 12, which are kinks.
+//! **Claim**: the stored results stand beside the paper as `docs/deviations.md` says. **Oracle**: Table 1 of
+//! Ma, Wang and Ma (2023), which none of these numbers was fitted to: the end of the recommended region
+//! lambda_r2, found here by a criterion of our own, and the tabulated knots lambda_b and lambda_d of N = 8,
+//! 9, 10, 12, which are kinks.
 
 use eigenring_scheme::lambda::{LambdaTable, PAPER_TABLE_1};
 use eigenring_tests::Comparison;
@@ -63,7 +64,8 @@ fn the_papers_kinks_are_among_the_candidates() {
 
 #[test]
 fn splines_stay_close_to_the_samples() {
-    // E of the splines exceeds that of the samples by at most 8.2 %, and eigenvalue bounds keep their margin of 1e-6
+    // E of the splines exceeds that of the samples by at most 8.2 %, and eigenvalue bounds keep their margin
+    // of 1e-6
     let table = rows("accuracy.csv");
     assert_eq!(table.len(), 18);
     for row in table {

@@ -1,6 +1,7 @@
-//! **Claim**: the stencils of the lambda-scheme, the rule for s and the one-ring spectra are those of Ma, Wang and Ma (2023),
-//! Eqs. 23, 24, 27, 30, 31. **Oracle**: `data/lambda_scheme_cases.json`, thirteen stencils of valences 3 to 20 computed by an
-//! independent implementation that solves for them numerically, its spectra by QR on the one-ring blocks.
+//! **Claim**: the stencils of the lambda-scheme, the rule for s and the one-ring spectra are those of Ma,
+//! Wang and Ma (2023), Eqs. 23, 24, 27, 30, 31. **Oracle**: `data/lambda_scheme_cases.json`, thirteen
+//! stencils of valences 3 to 20 computed by an independent implementation that solves for them numerically,
+//! its spectra by QR on the one-ring blocks.
 
 use eigenring_scheme::lambda::{Plane, Relaxation};
 use eigenring_spectral::LocalSystem;

@@ -1,6 +1,7 @@
 //! **Claim**: the tension scheme reduces to what it generalises, and its matrices are the same by every path.
-//! **Oracles**: Catmull-Clark's and Doo and Sabin's own rules; the masks of uniform B-splines (Lane and Riesenfeld 1980:
-//! binomial coefficients); the local matrix against its Fourier blocks and against refinement of points.
+//! **Oracles**: Catmull-Clark's and Doo and Sabin's own rules; the masks of uniform B-splines (Lane and
+//! Riesenfeld 1980: binomial coefficients); the local matrix against its Fourier blocks and against
+//! refinement of points.
 
 use eigenring_scheme::families::{catmull_clark, doo_sabin, tension};
 use eigenring_scheme::{Lattice, PointNet, Site, Spec, refine};
@@ -74,7 +75,8 @@ fn regular_nets_without_tension_are_uniform_b_splines() {
         let matrix = local_matrix(scheme.limit(), rings).unwrap();
         let places: Vec<(i32, i32)> = scheme.numbering(rings).sites().into_iter().map(in_the_plane).collect();
         let k = order as i32;
-        // refined X at X/2 between control points at integers (even orders) or half integers, all in half steps
+        // refined X at X/2 between control points at integers (even orders) or half integers, all in half
+        // steps
         let weight = |fine: i32, coarse: i32| mask(k, (fine - 2 * coarse + k) / 2);
         for (row, &(x, y)) in places.iter().enumerate() {
             for (column, &(a, b)) in places.iter().enumerate() {

@@ -1,6 +1,7 @@
-//! **Claim**: the generalised tension scheme (Fang, Ma and Wang) of even and odd order has the spectra that its rules imply.
-//! **Oracles**: `data/tension_scheme_cases.json`, even orders by an independent implementation; odd moduli of another one,
-//! for the rule that a smoothed point is the mean of the centroids of its four faces; order 3 in closed form.
+//! **Claim**: the generalised tension scheme (Fang, Ma and Wang) of even and odd order has the spectra that
+//! its rules imply. **Oracles**: `data/tension_scheme_cases.json`, even orders by an independent
+//! implementation; odd moduli of another one, for the rule that a smoothed point is the mean of the centroids
+//! of its four faces; order 3 in closed form.
 
 use eigenring_scheme::families::tension;
 use eigenring_spectral::LocalSystem;
@@ -28,7 +29,8 @@ fn even_orders() {
         for (rank, expected) in case.leading.iter().enumerate() {
             comparison.check(format!("{label}, rank {rank}"), left[rank].0, expected.value);
         }
-        // the same moduli in the same blocks; where several blocks share a modulus their order is of no meaning
+        // the same moduli in the same blocks; where several blocks share a modulus their order is of no
+        // meaning
         for expected in &case.leading {
             let same =
                 |&(modulus, k): &(f64, usize)| k == expected.fourier && (modulus - expected.value).abs() <= TOLERANCE;

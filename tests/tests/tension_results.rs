@@ -1,4 +1,5 @@
-//! **Claim**: the eigenvalues in `results/tension` are those of the local matrices, and `1 > |lambda_1| = |lambda_2| >
+//! **Claim**: the eigenvalues in `results/tension` are those of the local matrices, and `1 > |lambda_1| =
+//! |lambda_2| >
 //! |lambda_3|` over the whole sweep but for the exceptions that are listed. **Oracles**: closed forms of order 3, Catmull-Clark
 //! (Ball and Storry 1988), regular nets; the limit u = 1 that the levels approach; matrices computed here.
 
@@ -132,8 +133,8 @@ fn stored_eigenvalues_have_the_known_closed_forms() {
     comparison.finish();
 }
 
-/// Eigenvalues move by at most 0.26 times the change of the tension (measured: 0.2500009, at order 3), so that the ninth
-/// level agrees with the limit to as many digits as `u_9` agrees with 1.
+/// Eigenvalues move by at most 0.26 times the change of the tension (measured: 0.2500009, at order 3), so
+/// that the ninth level agrees with the limit to as many digits as `u_9` agrees with 1.
 #[test]
 fn the_ninth_level_is_as_near_to_the_limit_as_its_tension() {
     let rows = sweep();
@@ -187,7 +188,8 @@ fn table_two_ends_at_stams_scheme() {
     }
 }
 
-/// Eigenvectors: each stored mesh is reproduced by refinement, scaled by its eigenvalue, and its first point is (1, 0).
+/// Eigenvectors: each stored mesh is reproduced by refinement, scaled by its eigenvalue, and its first point
+/// is (1, 0).
 #[test]
 fn characteristic_meshes_are_eigenvectors() {
     for (name, orders) in [("meshes_even.csv", [4, 8]), ("meshes_odd.csv", [3, 7])] {

@@ -1,5 +1,6 @@
-//! **Claim**: a scheme written down in TOML is the same scheme as the built-in one: same local matrix, same spectrum.
-//! **Oracle**: the built-in constructors. **Input**: the files in `data/schemes/`, which serve as examples for users.
+//! **Claim**: a scheme written down in TOML is the same scheme as the built-in one: same local matrix, same
+//! spectrum. **Oracle**: the built-in constructors. **Input**: the files in `data/schemes/`, which serve as
+//! examples for users.
 
 use eigenring_scheme::families::{catmull_clark, doo_sabin, tension};
 use eigenring_scheme::user::{Reading, UserScheme};

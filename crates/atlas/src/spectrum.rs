@@ -192,8 +192,8 @@ impl Analysis {
         table
     }
 
-    /// The sizes of an eigenvalue's Jordan blocks, falling, such as "2+1": those of one of two conjugate Fourier
-    /// blocks. `None` where it has as many eigenvectors as its multiplicity.
+    /// The sizes of an eigenvalue's Jordan blocks, falling, such as "2+1": those of one of two conjugate
+    /// Fourier blocks. `None` where it has as many eigenvectors as its multiplicity.
     fn jordan(&self, eigenvalue: &Eigenvalue) -> Option<String> {
         let block = self.system.blocks().get(eigenvalue.fourier.unwrap_or(0))?;
         let sizes = eigenvalue
@@ -231,7 +231,8 @@ struct Limits {
     tangents: Result<[Vec<f64>; 2], eigenring_spectral::Error>,
     /// Whether sector 0 stands for all.
     symmetric: bool,
-    /// Name and index of each point that is shown to people: of sector 0 where it stands for all, and the centre.
+    /// Name and index of each point that is shown to people: of sector 0 where it stands for all, and the
+    /// centre.
     points: Vec<(String, usize)>,
     all: Value,
 }

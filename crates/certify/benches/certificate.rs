@@ -1,7 +1,8 @@
 //! A certificate made (search and checks), and checked again (checks alone).
 //!
-//! Time goes into N/2 + 1 Fourier blocks, each of a few unknowns a ring, and into the Bernstein coefficients of the Jacobian and of
-//! the second-order curvatures on the patches of half a sector, whose number does not depend on N.
+//! Time goes into N/2 + 1 Fourier blocks, each of a few unknowns a ring, and into the Bernstein coefficients
+//! of the Jacobian and of the second-order curvatures on the patches of half a sector, whose number does not
+//! depend on N.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use eigenring_certify::{Input, certify, recheck};

@@ -1,14 +1,15 @@
 //! Certificates: making, checking, storing and checking again.
 //!
-//! A [`Certificate`] says of one exact scheme at one valence what was proven, refuted or left open, and keeps the evidence: the
-//! approximate eigenvectors and the subdivisions with which the proofs go through. [`certify`] makes one in two steps that
-//! share nothing but the problem: a search ([`find`](crate::find), [`map::find`](crate::map::find)), in doubles, and the checks, in
-//! intervals and exact arithmetic. [`recheck`] runs the checks alone, on a stored certificate, and compares what they say with what is
+//! A [`Certificate`] says of one exact scheme at one valence what was proven, refuted or left open, and keeps
+//! the evidence: the approximate eigenvectors and the subdivisions with which the proofs go through.
+//! [`certify`] makes one in two steps that share nothing but the problem: a search ([`find`](crate::find),
+//! [`map::find`](crate::map::find)), in doubles, and the checks, in intervals and exact arithmetic.
+//! [`recheck`] runs the checks alone, on a stored certificate, and compares what they say with what is
 //! claimed.
 //!
-//! The digest in a file shows that it was changed after it was written. It is no protection, and none is needed: every
-//! claim is proven anew from the scheme. Someone who changes claim and digest is told that the claim does not hold; someone who
-//! changes the scheme has the certificate of another scheme, which says so.
+//! The digest in a file shows that it was changed after it was written. It is no protection, and none is
+//! needed: every claim is proven anew from the scheme. Someone who changes claim and digest is told that the
+//! claim does not hold; someone who changes the scheme has the certificate of another scheme, which says so.
 
 use crate::conditions::{self, Facts, Subdominant};
 use crate::document::{Document, tool};
@@ -115,8 +116,8 @@ fn check_subject(subject: &Subject, evidence: &Evidence) -> Result<Vec<Check>, E
     }
 }
 
-/// The patches and the blocks of the matrix that determines them; or, where the regular rules are those of no B-spline, all that
-/// can be said without patches.
+/// The patches and the blocks of the matrix that determines them; or, where the regular rules are those of no
+/// B-spline, all that can be said without patches.
 type Patches = Result<(Annulus, Vec<Block>), Vec<Check>>;
 
 fn patches(subject: &Subject) -> Result<Patches, Error> {
@@ -176,7 +177,8 @@ impl<'a> Proof<'a> {
         let affine = matches!(row_sums.status, Status::Proven | Status::Numerical);
         let hull = rows::hull(subject)?;
         if !affine {
-            // block 0 was divided by a vector that is then no eigenvector, and what is left says nothing of the scheme
+            // block 0 was divided by a vector that is then no eigenvector, and what is left says nothing of
+            // the scheme
             let reason = "rows are not known to sum to 1";
             let checks = without_patches(subject, row_sums, hull, reason);
             return Ok(Proof {
@@ -258,8 +260,9 @@ impl<'a> Proof<'a> {
         self.checks
     }
 
-    /// Where levels differ, what refutes a statement about the limit level refutes one about the surface only if some net shows it after
-    /// the leading levels: the tangents do if `levels` is proven, and of other modes nothing is known.
+    /// Where levels differ, what refutes a statement about the limit level refutes one about the surface only
+    /// if some net shows it after the leading levels: the tangents do if `levels` is proven, and of other
+    /// modes nothing is known.
     fn of_the_limit_level(&mut self) {
         if self.subject.scheme.leading().is_empty() {
             return;
@@ -360,7 +363,8 @@ fn characteristic(spectrum: &Spectrum, lambda: &Subdominant) -> Option<PlaneNet<
     PlaneNet::new(spectrum.annulus, 1, true, parts(net)).ok()
 }
 
-/// The maps of the largest further eigenvalues of the blocks 0 and 2 (N = 3: of block 1 once more; N = 4: two of block 2).
+/// The maps of the largest further eigenvalues of the blocks 0 and 2 (N = 3: of block 1 once more; N = 4: two
+/// of block 2).
 fn second_order_maps(
     spectrum: &Spectrum,
     lambda: &Subdominant,
@@ -561,7 +565,8 @@ pub struct Recheck {
     pub intact: bool,
     /// What the checks say now.
     pub checks: Vec<Check>,
-    /// Claims that the checks do not confirm, and other things in which the certificate is not what they would make.
+    /// Claims that the checks do not confirm, and other things in which the certificate is not what they
+    /// would make.
     pub differences: Vec<Difference>,
 }
 
@@ -596,8 +601,9 @@ impl Recheck {
     }
 }
 
-/// Checks the text of a stored certificate again: its scheme and its evidence, with the checks alone. The text must be exactly what
-/// is written for the certificate that it holds, so that nothing is in it that was not looked at.
+/// Checks the text of a stored certificate again: its scheme and its evidence, with the checks alone. The
+/// text must be exactly what is written for the certificate that it holds, so that nothing is in it that was
+/// not looked at.
 ///
 /// # Errors
 /// Those of reading it, and of the input.

@@ -1,6 +1,7 @@
 //! Statements about eigenvalues.
 //!
-//! With the eigenvalues `1 > lambda = lambda > ...` of the local matrix on all rings that determine the patches:
+//! With the eigenvalues `1 > lambda = lambda > ...` of the local matrix on all rings that determine the
+//! patches:
 //!
 //! | check | statement | source |
 //! |---|---|---|
@@ -10,24 +11,26 @@
 //! | `non_degenerate` | `lambda^2` is an eigenvalue in the blocks 0, 2 and N-2: curvatures have a limit that is not zero | Prautzsch and Umlauf; Ma, Wang and Ma 2023 |
 //! | `strict` | all eigenvalues after these three are smaller in modulus | Ma, Wang and Ma 2023, Eq. 26 |
 //!
-//! At N = 3 index 2 is index N-1, and the second value of block 1 takes its part; at N = 4 both saddles are in block 2.
-//! Inequalities are decided by enclosures, equalities exactly ([`Facts`]). Where a Jordan block could decide, an enclosure that
-//! does not exceed another one proves nothing: the value is strictly below, or it is exactly the same and known to be
-//! semisimple.
+//! At N = 3 index 2 is index N-1, and the second value of block 1 takes its part; at N = 4 both saddles are
+//! in block 2. Inequalities are decided by enclosures, equalities exactly ([`Facts`]). Where a Jordan block
+//! could decide, an enclosure that does not exceed another one proves nothing: the value is strictly below,
+//! or it is exactly the same and known to be semisimple.
 //!
-//! **What refutes.** These statements are sufficient for C1; one that does not hold is *undecided* unless a theorem says that the
-//! surface is not C1, or its curvature not bounded, with an eigenvector that the surface is proven to see
-//! ([`Spectrum::sees`](crate::spectral::Spectrum::sees)) as its witness:
+//! **What refutes.** These statements are sufficient for C1; one that does not hold is *undecided* unless a
+//! theorem says that the surface is not C1, or its curvature not bounded, with an eigenvector that the
+//! surface is proven to see ([`Spectrum::sees`](crate::spectral::Spectrum::sees)) as its witness:
 //!
-//! * `dominant`: an eigenvalue other than the constant vector's has a modulus of 1 or more. Data with a part in its eigenvector,
-//!   which almost all have, do not converge to a point at the centre (Peters and Reif 2008, section 4.2).
-//! * `subdominant`: a real positive eigenvalue of Fourier index 2 to (N-1)/2, simple in its block, leads all others: its
-//!   characteristic map winds so many times round the centre (Peters and Reif 2008, section 5.3); or a negative one of index 1, simple and
-//!   alone in modulus, in rules with mirror symmetry: the image of a spoke lies on the mirror and leads from one side of the
-//!   centre to the other within the annulus, so that the map is not injective (*ibid.*).
-//! * `bounded_curvature`: a real eigenvalue exceeds lambda^2 in modulus. Over the tangent plane its part of the surface grows by its
-//!   ratio to lambda^2 a level; its second derivatives do not all vanish, since a function that is linear on the rings scales with 1 or
-//!   lambda (Peters and Reif 2008, section 7).
+//! * `dominant`: an eigenvalue other than the constant vector's has a modulus of 1 or more. Data with a part
+//!   in its eigenvector, which almost all have, do not converge to a point at the centre (Peters and Reif
+//!   2008, section 4.2).
+//! * `subdominant`: a real positive eigenvalue of Fourier index 2 to (N-1)/2, simple in its block, leads all
+//!   others: its characteristic map winds so many times round the centre (Peters and Reif 2008, section 5.3);
+//!   or a negative one of index 1, simple and alone in modulus, in rules with mirror symmetry: the image of a
+//!   spoke lies on the mirror and leads from one side of the centre to the other within the annulus, so that
+//!   the map is not injective (*ibid.*).
+//! * `bounded_curvature`: a real eigenvalue exceeds lambda^2 in modulus. Over the tangent plane its part of
+//!   the surface grows by its ratio to lambda^2 a level; its second derivatives do not all vanish, since a
+//!   function that is linear on the rings scales with 1 or lambda (Peters and Reif 2008, section 7).
 
 use crate::exact::{self, Field, Poly, block_polynomial};
 use crate::linear::Eigenvalue;
@@ -131,7 +134,8 @@ pub fn subdominant(subject: &Subject, spectrum: &Spectrum, facts: &mut Facts) ->
             entry.value.modulus().mid()
         );
         let n = subject.scheme.valence();
-        // a pair of index k, simple and ahead of everything else, belongs to a map that winds k times round the centre
+        // a pair of index k, simple and ahead of everything else, belongs to a map that winds k times round
+        // the centre
         let pair =
             (2..n.div_ceil(2)).contains(&entry.index) && entry.value.is_real() && entry.value.re.certainly_positive();
         if pair && spectrum.leads(entry) && spectrum.sees(entry) {
@@ -195,11 +199,11 @@ pub fn subdominant(subject: &Subject, spectrum: &Spectrum, facts: &mut Facts) ->
     (check, Some(Subdominant { position, value }))
 }
 
-/// `subdominant` for rules that differ from sector to sector: two real positive eigenvalues, both simple, the second larger in
-/// modulus than all others, and both of them, if that was proven.
+/// `subdominant` for rules that differ from sector to sector: two real positive eigenvalues, both simple, the
+/// second larger in modulus than all others, and both of them, if that was proven.
 ///
-/// Where the two are equal, the one matrix that there is has them as a double eigenvalue, of which no enclosure can tell whether
-/// it is semisimple: undecided.
+/// Where the two are equal, the one matrix that there is has them as a double eigenvalue, of which no
+/// enclosure can tell whether it is semisimple: undecided.
 pub fn distinct_pair(spectrum: &Spectrum) -> (Check, Option<[Subdominant; 2]>) {
     const NAME: Statement = Statement::Subdominant;
     let open = |text: String| (Check::undecided(NAME, text), None);
@@ -268,7 +272,8 @@ impl<'a> Facts<'a> {
         Some((&*field, known.clone()?))
     }
 
-    /// Whether the square of lambda, an eigenvalue of block 1 that no other of the block comes near, is an eigenvalue of a block.
+    /// Whether the square of lambda, an eigenvalue of block 1 that no other of the block comes near, is an
+    /// eigenvalue of a block.
     fn square_in(&mut self, index: usize, lambda: Interval) -> Option<bool> {
         let valence = self.subject.scheme.valence();
         if let Some(identities) = self.subject.identities {
@@ -321,8 +326,8 @@ fn within(spectrum: &Spectrum, entry: &Entry, rings: usize) -> bool {
     block.is_some_and(|block| block.ring(entry.component) <= rings)
 }
 
-/// The eigenvalues that are exactly `lambda^2` and without Jordan block: their positions among the entries, and the Fourier
-/// indices that have them.
+/// The eigenvalues that are exactly `lambda^2` and without Jordan block: their positions among the entries,
+/// and the Fourier indices that have them.
 struct Squares {
     positions: Vec<usize>,
     indices: Vec<usize>,

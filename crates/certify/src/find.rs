@@ -1,7 +1,7 @@
 //! The search for evidence, in doubles.
 //!
-//! Nothing here is believed: what it finds is handed to the checks, which prove or refute with it, or fail to. It sees the
-//! same blocks and components as they do, rounded.
+//! Nothing here is believed: what it finds is handed to the checks, which prove or refute with it, or fail
+//! to. It sees the same blocks and components as they do, rounded.
 
 use crate::Interval;
 use crate::linear::{eigenpair, quotient, radius_below};
@@ -14,17 +14,19 @@ pub fn evidence(blocks: &[Block]) -> Evidence {
     blocks.iter().map(of_block).collect()
 }
 
-/// Eigenvalues nearer than this, relative to the largest, are not divided out one by one: their vectors are known to too few
-/// digits. Empirical.
+/// Eigenvalues nearer than this, relative to the largest, are not divided out one by one: their vectors are
+/// known to too few digits. Empirical.
 const APART: f64 = 1e-6;
 
-/// Pairs divided out of a component with more than [`SMALL`] unknowns. Empirical: checks ask for the first three.
+/// Pairs divided out of a component with more than [`SMALL`] unknowns. Empirical: checks ask for the first
+/// three.
 const PAIRS: usize = 4;
 
 /// Components of up to this many unknowns are taken apart completely where possible.
 const SMALL: usize = 8;
 
-/// Pairs whose enclosure is wider than this, relative to the eigenvalue, are not divided out: what they leave would be wider still. Empirical.
+/// Pairs whose enclosure is wider than this, relative to the eigenvalue, are not divided out: what they leave
+/// would be wider still. Empirical.
 const SHARP: f64 = 1e-10;
 
 fn peel(block: &Block, component: usize) -> Peel {
@@ -95,8 +97,8 @@ fn rest(exact: &Matrix<Interval>) -> Option<Rest> {
     None
 }
 
-/// The Cholesky factor L (upper, `P = L^T L`) of the solution of `P - M^T P M = I`, `M = A / radius`: the sum of
-/// `(M^T)^k M^k`, by doubling.
+/// The Cholesky factor L (upper, `P = L^T L`) of the solution of `P - M^T P M = I`, `M = A / radius`: the sum
+/// of `(M^T)^k M^k`, by doubling.
 fn stein_factor(matrix: &Matrix<f64>, radius: f64) -> Option<Matrix<f64>> {
     let size = matrix.rows();
     let times = |a: &Matrix<f64>, b: &Matrix<f64>| {

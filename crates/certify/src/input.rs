@@ -1,12 +1,14 @@
 //! What is certified: an exact scheme.
 //!
-//! A certificate speaks of a scheme in real numbers. What those are must be said without rounding, so an [`Input`] consists
-//! of names, of doubles (each the rational number it represents) and of the text of a scheme file, whose decimals and fractions are
-//! taken as written. A stencil that somebody computed in doubles is another matter: it approximates a scheme that is not
-//! given, and everything said of it is [numerical](crate::Status::Numerical).
+//! A certificate speaks of a scheme in real numbers. What those are must be said without rounding, so an
+//! [`Input`] consists of names, of doubles (each the rational number it represents) and of the text of a
+//! scheme file, whose decimals and fractions are taken as written. A stencil that somebody computed in
+//! doubles is another matter: it approximates a scheme that is not given, and everything said of it is
+//! [numerical](crate::Status::Numerical).
 //!
-//! [`Subject`] is an input at one valence, made ready for proofs: the rules with interval weights, the same with exact ones
-//! where these exist, and for the lambda-scheme the equalities that its closed forms give ([`Identities`]).
+//! [`Subject`] is an input at one valence, made ready for proofs: the rules with interval weights, the same
+//! with exact ones where these exist, and for the lambda-scheme the equalities that its closed forms give
+//! ([`Identities`]).
 
 use crate::{Error, Interval};
 use eigenring_scheme::families::tension;
@@ -24,7 +26,8 @@ pub enum Input {
         /// The spec.
         spec: String,
     },
-    /// A family beside a boundary, a crease, a fixed vertex or knot intervals, which are the numbers that their doubles are.
+    /// A family beside a boundary, a crease, a fixed vertex or knot intervals, which are the numbers that
+    /// their doubles are.
     Corner {
         /// The spec.
         spec: String,
@@ -61,7 +64,8 @@ pub enum Input {
 }
 
 impl Input {
-    /// The input of a spec. For the lambda-scheme the weights are looked up here, so that the input does not depend on the table.
+    /// The input of a spec. For the lambda-scheme the weights are looked up here, so that the input does not
+    /// depend on the table.
     ///
     /// # Errors
     /// Those of the spec: parameters out of range, a member of the lambda-scheme that is not tabulated.
@@ -107,7 +111,8 @@ impl Input {
         }
     }
 
-    /// What the scheme sees, in the words of [`Corner`](eigenring_scheme::Corner); `None` for a corner that does not exist.
+    /// What the scheme sees, in the words of [`Corner`](eigenring_scheme::Corner); `None` for a corner that
+    /// does not exist.
     pub fn corner(&self) -> Option<String> {
         match self {
             Input::Corner { spec, shape, steps } => {
@@ -118,7 +123,8 @@ impl Input {
         }
     }
 
-    /// The scheme's name with where it came from: `file:` before the name of a file's scheme, which is no name of ours.
+    /// The scheme's name with where it came from: `file:` before the name of a file's scheme, which is no
+    /// name of ours.
     pub fn origin(&self) -> String {
         match self {
             Input::Toml { .. } => format!("file:{}", self.name()),
@@ -232,7 +238,8 @@ pub struct Subject {
     pub identities: Option<Identities>,
     /// Whether the weights are results of rounding.
     pub floating: bool,
-    /// Whether the levels are those of the tension scheme with an initial tension above -1, which tend to the limit level.
+    /// Whether the levels are those of the tension scheme with an initial tension above -1, which tend to the
+    /// limit level.
     pub tends_like_tension: bool,
     /// Whether the rows of the leading levels sum to 1 whatever the tension is.
     pub affine_levels: bool,
@@ -240,8 +247,8 @@ pub struct Subject {
     pub balance: Balance,
 }
 
-/// Whether the rows of the tension scheme sum to 1 for every tension. The weights of a pass, times `(1+u)^2`, are polynomials of
-/// degree 2 in u; a sum of such that is `(1+u)^2` at three values of u is so at all.
+/// Whether the rows of the tension scheme sum to 1 for every tension. The weights of a pass, times `(1+u)^2`,
+/// are polynomials of degree 2 in u; a sum of such that is `(1+u)^2` at three values of u is so at all.
 fn affine_levels(valence: usize, order: usize) -> bool {
     [0.0, 2.0, 3.0].into_iter().all(|u| {
         let scheme = tension::<Exact>(valence, order, u);
@@ -249,7 +256,8 @@ fn affine_levels(valence: usize, order: usize) -> bool {
     })
 }
 
-/// Whether the weights of every point that a pass makes are known to sum to 1: then those of the whole level do.
+/// Whether the weights of every point that a pass makes are known to sum to 1: then those of the whole level
+/// do.
 fn passes_are_affine(level: &Level<Exact>) -> bool {
     let one = |sum: Exact| sum.same(&Exact::one());
     level.passes().iter().all(|pass| {
@@ -260,35 +268,37 @@ fn passes_are_affine(level: &Level<Exact>) -> bool {
     })
 }
 
-/// The enclosures of exact weights; nothing is known of one without value. Symmetry and degree are those of the exact scheme.
+/// The enclosures of exact weights; nothing is known of one without value. Symmetry and degree are those of
+/// the exact scheme.
 fn enclosed(exact: &Scheme<Exact>) -> Scheme<Interval> {
     exact.map(|weight| weight.to().unwrap_or(Interval::ENTIRE))
 }
 
-/// Equalities of the lambda-scheme (Ma, Wang and Ma 2023), which its closed forms give at all parameters, whether
-/// admissible or not.
+/// Equalities of the lambda-scheme (Ma, Wang and Ma 2023), which its closed forms give at all parameters,
+/// whether admissible or not.
 ///
-/// Let `p_k(x) = x^2 - T_k x + f3 g3` with `T_k = g3 + f3 + h (1 + c_k)`: the characteristic polynomial of block k != 0 on
-/// (E, F), for all one-ring stencils in the generalised Catmull-Clark form. In the notation of
-/// [`Plane`] with `sg = s lambda` and `mu = sg lambda`, for arbitrary numbers c1, c2:
+/// Let `p_k(x) = x^2 - T_k x + f3 g3` with `T_k = g3 + f3 + h (1 + c_k)`: the characteristic polynomial of
+/// block k != 0 on (E, F), for all one-ring stencils in the generalised Catmull-Clark form. In the notation
+/// of [`Plane`] with `sg = s lambda` and `mu = sg lambda`, for arbitrary numbers c1, c2:
 ///
 /// ```text
 /// p_1(lambda) = (lambda - f3)(lambda - g3) - h (1 + c1) lambda = 0
 /// p_2(mu)     = (mu - f3)(mu - g3)         - h (1 + c2) mu     = 0
 /// ```
 ///
-/// Multiplied by the denominator `C - D f3` these are polynomial identities of degree at most 6 in lambda, 3 in s, 2 in f3 and 1 in each of c1
-/// and c2; the tests evaluate them in rational arithmetic on a grid with more points than that in every direction, which proves
-/// them. In block 0 on (E - V, F - V), `det(x - S_0)` without its factor `x - 1` is
+/// Multiplied by the denominator `C - D f3` these are polynomial identities of degree at most 6 in lambda, 3
+/// in s, 2 in f3 and 1 in each of c1 and c2; the tests evaluate them in rational arithmetic on a grid with
+/// more points than that in every direction, which proves them. In block 0 on (E - V, F - V), `det(x - S_0)`
+/// without its factor `x - 1` is
 ///
 /// ```text
 /// p_0(x) + beta [ 2 f2 + phi h f3/f2 - (g3 + 2h - x + phi (f3 - x)) ]
 /// ```
 ///
-/// (expand; the terms in `beta^2` cancel). At `x = mu`, `p_0(mu) = p_2(mu) - h (1 - c2) mu = -h (1 - c2) mu`, so that the value
-/// is zero exactly for the beta of [`Plane`]. Row sums are `f1 + 2 f2 + f3 = 1`, hence
-/// `d1 + d2 + 2 e1 + 2 e2 = g1 + g3 + 2 g2 (f1 + 2 f2 + f3) = 1`. At valence 4 all this holds for `f3 = mu`, where g3 and h are
-/// given by continuation.
+/// (expand; the terms in `beta^2` cancel). At `x = mu`, `p_0(mu) = p_2(mu) - h (1 - c2) mu = -h (1 - c2) mu`,
+/// so that the value is zero exactly for the beta of [`Plane`]. Row sums are `f1 + 2 f2 + f3 = 1`, hence `d1
+/// + d2 + 2 e1 + 2 e2 = g1 + g3 + 2 g2 (f1 + 2 f2 + f3) = 1`. At valence 4 all this holds for `f3 = mu`,
+/// where g3 and h are given by continuation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Identities {
     /// An eigenvalue of block 1.
@@ -361,8 +371,9 @@ mod tests {
         ]
     }
 
-    /// Degrees of `p_1(lambda)` and `p_2(mu)` times the denominator are at most 6 in lambda, 3 in s, 2 in f3 and 1 in each of c1, c2.
-    /// A polynomial that vanishes on a grid with more points than its degree in every direction is zero.
+    /// Degrees of `p_1(lambda)` and `p_2(mu)` times the denominator are at most 6 in lambda, 3 in s, 2 in f3
+    /// and 1 in each of c1, c2. A polynomial that vanishes on a grid with more points than its degree in
+    /// every direction is zero.
     #[test]
     fn the_demanded_eigenvalues_hold_by_identity() {
         let points = |count: i64, shift: i64| (0..count).map(move |i| q(i + shift, 3));
@@ -389,7 +400,8 @@ mod tests {
         assert_eq!(evaluated, 9 * 6 * 125);
     }
 
-    /// The closed forms above are those of [`Plane`], and the stencils have the demanded eigenvalues in block 0 too.
+    /// The closed forms above are those of [`Plane`], and the stencils have the demanded eigenvalues in block
+    /// 0 too.
     #[test]
     fn planes_evaluate_these_closed_forms() {
         for (valence, cosines) in [(3, [q(-1, 2), q(-1, 2)]), (6, [q(1, 2), q(-1, 2)])] {

@@ -1,11 +1,12 @@
 //! Intervals of real numbers with double bounds: the arithmetic of every proof in this crate.
 //!
-//! An [`Interval`] `[lo, hi]` stands for "a real number that is not below `lo` and not above `hi`". Each operation returns
-//! an interval that holds every result the operation can have on members of its operands (Moore 1966; Neumaier 1990,
-//! *Interval Methods for Systems of Equations*, section 1.4). Bounds are rounded outwards, and only where the double
-//! operation was not exact, so that points stay points as long as possible: `0 * x = 0`, `1 * x = x`, and sums and products
-//! of small rationals with power-of-two denominators are exact. An entry of a matrix that is zero by construction is then
-//! an exact zero, which is what structural arguments need.
+//! An [`Interval`] `[lo, hi]` stands for "a real number that is not below `lo` and not above `hi`". Each
+//! operation returns an interval that holds every result the operation can have on members of its operands
+//! (Moore 1966; Neumaier 1990, *Interval Methods for Systems of Equations*, section 1.4). Bounds are rounded
+//! outwards, and only where the double operation was not exact, so that points stay points as long as
+//! possible: `0 * x = 0`, `1 * x = x`, and sums and products of small rationals with power-of-two
+//! denominators are exact. An entry of a matrix that is zero by construction is then an exact zero, which is
+//! what structural arguments need.
 //!
 //! **No NaN, no panic.** Where a result is not defined (a division by an interval that holds zero, a root of
 //! an interval that reaches below zero, a NaN handed in) the result is [`Interval::ENTIRE`]: nothing is
@@ -13,8 +14,8 @@
 //! the same: an interval stands for a real number, so that an exact zero times it is zero. Whoever multiplies
 //! what may not be defined by an exact zero has to know that it is defined.
 //!
-//! Intervals are not ordered. The comparisons here say what is certain: `a.certainly_lt(b)` being false says nothing about
-//! `a >= b`.
+//! Intervals are not ordered. The comparisons here say what is certain: `a.certainly_lt(b)` being false says
+//! nothing about `a >= b`.
 
 mod angle;
 mod decimal;
@@ -87,8 +88,8 @@ impl Interval {
         Interval { lo: -1.0, hi: 1.0 }
     }
 
-    /// An enclosure of a number written as a decimal: a point where a double has that value, adjacent doubles otherwise.
-    /// `None` where the text is not a decimal number.
+    /// An enclosure of a number written as a decimal: a point where a double has that value, adjacent doubles
+    /// otherwise. `None` where the text is not a decimal number.
     pub fn parse(text: &str) -> Option<Self> {
         decimal::parse(text)
     }
@@ -120,7 +121,8 @@ impl Interval {
         self.hi
     }
 
-    /// A finite double inside the interval, near its middle. Not rounded outwards: the middle is only approximate.
+    /// A finite double inside the interval, near its middle. Not rounded outwards: the middle is only
+    /// approximate.
     pub fn mid(self) -> f64 {
         let mid = if self.lo.is_infinite() || self.hi.is_infinite() {
             if self.lo.is_infinite() && self.hi.is_infinite() {
@@ -235,7 +237,8 @@ impl Interval {
         other.certainly_lt(self)
     }
 
-    /// The sign where it is certain: `Some(1)`, `Some(-1)`, `Some(0)` for an exact zero, `None` where it is open.
+    /// The sign where it is certain: `Some(1)`, `Some(-1)`, `Some(0)` for an exact zero, `None` where it is
+    /// open.
     pub fn sign(self) -> Option<i8> {
         if self.lo > 0.0 {
             Some(1)

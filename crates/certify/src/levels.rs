@@ -1,20 +1,22 @@
 //! Levels that differ: whether C1 carries over from the limit level.
 //!
-//! Let `S_l` be the local matrices of the levels and S that of the limit level. Rows of all sum to 1, so that differences from the
-//! centre are mapped to such. If S has the subdominant pair lambda and `sum_l lambda^-l |S_l - S|` is finite, then
-//! `lambda^-m S_(m-1) .. S_0` tends, on these differences, to `R L^(0)`: R is the pair's eigenvectors, `L^(0)` a pair of
-//! functionals of the control net. Where `L^(0)` does not vanish, the rings of almost all nets tend, after scaling, to affine
-//! images of the characteristic map of S, and the surface is C1 with it (asymptotic equivalence: Dyn and Levin 1995, *Analysis of
-//! asymptotically equivalent binary subdivision schemes*, for the regular part; Conti, Donatelli, Romani and Novara 2019,
-//! *Convergence and normal continuity analysis of non-stationary subdivision schemes near extraordinary vertices and faces*, for
-//! the centre). For the tension scheme the hypotheses are checked here:
+//! Let `S_l` be the local matrices of the levels and S that of the limit level. Rows of all sum to 1, so that
+//! differences from the centre are mapped to such. If S has the subdominant pair lambda and `sum_l lambda^-l
+//! |S_l - S|` is finite, then `lambda^-m S_(m-1) .. S_0` tends, on these differences, to `R L^(0)`: R is the
+//! pair's eigenvectors, `L^(0)` a pair of functionals of the control net. Where `L^(0)` does not vanish, the
+//! rings of almost all nets tend, after scaling, to affine images of the characteristic map of S, and the
+//! surface is C1 with it (asymptotic equivalence: Dyn and Levin 1995, *Analysis of asymptotically equivalent
+//! binary subdivision schemes*, for the regular part; Conti, Donatelli, Romani and Novara 2019, *Convergence
+//! and normal continuity analysis of non-stationary subdivision schemes near extraordinary vertices and
+//! faces*, for the centre). For the tension scheme the hypotheses are checked here:
 //!
-//! * `u_(l+1) - 1 = (u_l - 1) / (2 (1 + u_(l+1)))`, which for `u_0 > -1` tends to 0, eventually faster than `q^l` for every q
-//!   above 1/4; weights are rational functions of u with poles at -1 only, so that `|S_l - S|` does as well. The sum is finite
-//!   **if lambda > 1/4**, and with it the one that the regular part needs, `sum 2^l |S_l - S|`;
+//! * `u_(l+1) - 1 = (u_l - 1) / (2 (1 + u_(l+1)))`, which for `u_0 > -1` tends to 0, eventually faster than
+//!   `q^l` for every q above 1/4; weights are rational functions of u with poles at -1 only, so that `|S_l -
+//!   S|` does as well. The sum is finite **if lambda > 1/4**, and with it the one that the regular part
+//!   needs, `sum 2^l |S_l - S|`;
 //! * rows of all levels sum to 1: [`rows::row_sums`](crate::rows);
-//! * `L^(0)`, the left eigenvector of S in block 1 times the blocks of the leading levels, is enclosed and has an entry that is
-//!   certainly not zero. From the last listed level on u is 1 to rounding.
+//! * `L^(0)`, the left eigenvector of S in block 1 times the blocks of the leading levels, is enclosed and
+//!   has an entry that is certainly not zero. From the last listed level on u is 1 to rounding.
 
 use crate::linear::eigenpair;
 use crate::{Check, Interval, Statement, Subject};

@@ -1,12 +1,13 @@
 //! Certificates: interval proofs about the spectrum and the characteristic map of a subdivision scheme.
 //!
-//! [`certify`] takes an exact scheme ([`Input`]) at a valence and says of each of a list of statements ([`Statement`]) whether it is
-//! proven, refuted, open, or only computed. [`recheck`] proves a stored [`Certificate`] again; [`range`] does both for a
-//! continuous range of lambda.
+//! [`certify`] takes an exact scheme ([`Input`]) at a valence and says of each of a list of statements
+//! ([`Statement`]) whether it is proven, refuted, open, or only computed. [`recheck`] proves a stored
+//! [`Certificate`] again; [`range`] does both for a continuous range of lambda.
 //!
-//! **Search and proof are apart.** [`find`] and [`map::find`] look for evidence in doubles: approximate eigenvectors, subdivisions, places. The
-//! checks take scheme and evidence and use nothing but [`Interval`]s, [`Centred`] forms and [`exact`] numbers. Wrong evidence leaves a
-//! statement undecided; it cannot make it proven or refuted.
+//! **Search and proof are apart.** [`find`] and [`map::find`] look for evidence in doubles: approximate
+//! eigenvectors, subdivisions, places. The checks take scheme and evidence and use nothing but [`Interval`]s,
+//! [`Centred`] forms and [`exact`] numbers. Wrong evidence leaves a statement undecided; it cannot make it
+//! proven or refuted.
 
 mod certificate;
 mod conditions;

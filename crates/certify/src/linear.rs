@@ -1,10 +1,13 @@
 //! Verified linear algebra: systems, eigenpairs and spectral radii of matrices of intervals.
 //!
-//! Every function takes approximations that may come from anywhere and returns an enclosure that holds for **every** real
-//! matrix inside the given interval matrix, or nothing. An approximation that is bad costs width or success, never truth.
+//! Every function takes approximations that may come from anywhere and returns an enclosure that holds for
+//! **every** real matrix inside the given interval matrix, or nothing. An approximation that is bad costs
+//! width or success, never truth.
 //!
-//! * [`solve`]: a system, by the residual iteration of Krawczyk (1969) and Rump (1980) about an approximate inverse.
-//! * [`eigenpair`]: a simple real eigenvalue with its vector, by the operator of Krawczyk on `A x = lambda x, x_p = 1`.
+//! * [`solve`]: a system, by the residual iteration of Krawczyk (1969) and Rump (1980) about an approximate
+//!   inverse.
+//! * [`eigenpair`]: a simple real eigenvalue with its vector, by the operator of Krawczyk on `A x = lambda x,
+//!   x_p = 1`.
 //! * [`quotient`]: the matrix that is left when a known eigenvector is divided out.
 //! * [`pair`]: both eigenvalues of a 2 x 2 matrix in closed form.
 //! * [`radius_below`]: a strict bound of all eigenvalues of a matrix, defective or not, by the inequality of
@@ -21,8 +24,8 @@ pub use stein::radius_below;
 use crate::Interval;
 use eigenring_spectral::Matrix;
 
-/// An eigenvalue as an enclosure of its real and its imaginary part. The imaginary part is exactly zero where the value is
-/// proven to be real.
+/// An eigenvalue as an enclosure of its real and its imaginary part. The imaginary part is exactly zero where
+/// the value is proven to be real.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eigenvalue {
     /// Real part.

@@ -1,9 +1,10 @@
-//! The characteristic map: regular, injective, convex at its corners, and the signs of second-order curvature.
+//! The characteristic map: regular, injective, convex at its corners, and the signs of second-order
+//! curvature.
 //!
-//! A scheme with subdominant eigenvalue `0 < lambda < 1` of Fourier index 1 is C1 at the centre exactly when its
-//! characteristic map is regular and injective (Reif 1995; Peters and Reif 2008, *Subdivision Surfaces*, chapter 5). The map
-//! is determined by its patches on the regular [`Annulus`], whose control values are the subdominant eigenvector. Given
-//! enclosures of these, a [`PlaneNet`], the checks here prove or refute
+//! A scheme with subdominant eigenvalue `0 < lambda < 1` of Fourier index 1 is C1 at the centre exactly when
+//! its characteristic map is regular and injective (Reif 1995; Peters and Reif 2008, *Subdivision Surfaces*,
+//! chapter 5). The map is determined by its patches on the regular [`Annulus`], whose control values are the
+//! subdominant eigenvector. Given enclosures of these, a [`PlaneNet`], the checks here prove or refute
 //!
 //! * **regular** ([`regular`]): the Jacobian has one sign,
 //! * **injective** ([`winding`]): the outer boundary winds once round the origin,
@@ -11,18 +12,21 @@
 //! * the **Gauss curvature** of second-order maps (`gauss`).
 //!
 //! Everything is generic over the scalar: [`Interval`] for one scheme, [`Centred`](crate::Centred) for all
-//! schemes of a parameter range at once. [`find`] searches evidence (how far to subdivide, where a map folds); the checks
-//! take it as a claim and share nothing with the search. A wrong claim makes a check undecided, never wrong.
+//! schemes of a parameter range at once. [`find`] searches evidence (how far to subdivide, where a map
+//! folds); the checks take it as a claim and share nothing with the search. A wrong claim makes a check
+//! undecided, never wrong.
 //!
-//! **What is taken for granted:** the values are those of a rotation-symmetric net, `P_(i+1) = R P_i` with `R` the rotation
-//! by `2 pi k / N` (an eigenvector of Fourier block k has this form), and, where `mirror` is set, of one symmetric under
-//! reflection in the x-axis, on which the first point of ring 1 lies (spoke 0, or the diagonal of sector 0 around a face). Enclosures that contradict these are refused. Only sector 0 is then examined. Nets without rotation symmetry
-//! ([`PlaneNet::whole`]) are examined in all sectors. Their two coordinates may belong to two eigenvalues `lambda_1 > lambda_2`: the
-//! map is then extended by `X(2 t) = X(t) / diag(lambda_1, lambda_2)`, and what is said below holds for it as well (Zorin
-//! 2000, *Smoothness of stationary subdivision on irregular meshes*, Constructive Approximation 16). Scaled by these
-//! powers, rings of almost all nets tend to affine images of the map, since every further eigenvalue is below lambda_2; the leading
-//! term of their normals is `(lambda_1 lambda_2)^m` times the Jacobian, and the quotient of the punctured plane by the scaling is a
-//! torus again.
+//! **What is taken for granted:** the values are those of a rotation-symmetric net, `P_(i+1) = R P_i` with
+//! `R` the rotation by `2 pi k / N` (an eigenvector of Fourier block k has this form), and, where `mirror` is
+//! set, of one symmetric under reflection in the x-axis, on which the first point of ring 1 lies (spoke 0, or
+//! the diagonal of sector 0 around a face). Enclosures that contradict these are refused. Only sector 0 is
+//! then examined. Nets without rotation symmetry ([`PlaneNet::whole`]) are examined in all sectors. Their two
+//! coordinates may belong to two eigenvalues `lambda_1 > lambda_2`: the map is then extended by `X(2 t) =
+//! X(t) / diag(lambda_1, lambda_2)`, and what is said below holds for it as well (Zorin 2000, *Smoothness of
+//! stationary subdivision on irregular meshes*, Constructive Approximation 16). Scaled by these powers, rings
+//! of almost all nets tend to affine images of the map, since every further eigenvalue is below lambda_2; the
+//! leading term of their normals is `(lambda_1 lambda_2)^m` times the Jacobian, and the quotient of the
+//! punctured plane by the scaling is a torus again.
 
 mod corner;
 pub mod find;
@@ -135,7 +139,8 @@ pub struct PlaneNet<S> {
 }
 
 impl<S: Enclose> PlaneNet<S> {
-    /// The net of the real and imaginary parts of a mode of Fourier index `fourier`, over the numbering of the annulus.
+    /// The net of the real and imaginary parts of a mode of Fourier index `fourier`, over the numbering of
+    /// the annulus.
     ///
     /// # Errors
     /// [`NetError`] where lengths, degree or index do not fit, or the values contradict the symmetry.
@@ -159,8 +164,8 @@ impl<S: Enclose> PlaneNet<S> {
         Ok(net)
     }
 
-    /// A net without symmetry, over the numbering of the annulus: two coordinates of each point, of eigenvectors of two
-    /// eigenvalues that may differ.
+    /// A net without symmetry, over the numbering of the annulus: two coordinates of each point, of
+    /// eigenvectors of two eigenvalues that may differ.
     ///
     /// # Errors
     /// [`NetError`] where lengths or degree do not fit.
@@ -210,8 +215,9 @@ impl<S: Coefficient> PlaneNet<S> {
         self.annulus.numbering.fan.sectors()
     }
 
-    /// The patches that stand for all others under rotation, and under reflection where the net has it: those of sector 0,
-    /// of mirror images the one nearer to the own spoke. Without rotation symmetry those of all sectors.
+    /// The patches that stand for all others under rotation, and under reflection where the net has it: those
+    /// of sector 0, of mirror images the one nearer to the own spoke. Without rotation symmetry those of all
+    /// sectors.
     pub fn patches(&self) -> Vec<PatchIndex> {
         self.representatives()
             .flat_map(|sector| self.annulus.patches(sector))
@@ -263,8 +269,8 @@ fn check_size<S>(annulus: &Annulus, parts: &[Vec<S>; 2]) -> Result<(), NetError>
     Ok(())
 }
 
-/// Values that are each other's images must have enclosures that meet. `mirror` holds the signs of the two parts under
-/// reflection in the axis.
+/// Values that are each other's images must have enclosures that meet. `mirror` holds the signs of the two
+/// parts under reflection in the axis.
 fn check_symmetry(
     numbering: Numbering,
     fourier: usize,

@@ -1,19 +1,20 @@
 //! The mean-value form: sharp ranges of formulas over a small range of their parameters.
 //!
-//! Intervals forget that two occurrences of a parameter are the same number, and the width of the result of a formula grows
-//! with the number of occurrences. The centred form keeps the dependence to first order (Neumaier 1990, section 2.3): with
-//! the parameters `p_j = m_j + r_j t_j`, `t_j` in `[-1, 1]`,
+//! Intervals forget that two occurrences of a parameter are the same number, and the width of the result of a
+//! formula grows with the number of occurrences. The centred form keeps the dependence to first order
+//! (Neumaier 1990, section 2.3): with the parameters `p_j = m_j + r_j t_j`, `t_j` in `[-1, 1]`,
 //!
 //! ```text
 //! f(p) = f(m) + sum_j s_j t_j,     s_j the slopes of f in direction j,
 //! ```
 //!
-//! whose overestimation is quadratic in the `r_j` where that of plain intervals is linear. [`Centred`] carries `f(m)`, the
-//! slopes and the range through a formula and intersects the two forms of the range after every operation, so any code
-//! written over [`Scalar`] runs with it.
+//! whose overestimation is quadratic in the `r_j` where that of plain intervals is linear. [`Centred`]
+//! carries `f(m)`, the slopes and the range through a formula and intersects the two forms of the range after
+//! every operation, so any code written over [`Scalar`] runs with it.
 //!
-//! Slopes obey the rules of derivatives with one factor taken at the centre (Krawczyk and Neumaier 1985), hence are never
-//! wider than derivatives over the range: for a product `a b - a(m) b(m) = (a - a(m)) b + a(m) (b - b(m))`.
+//! Slopes obey the rules of derivatives with one factor taken at the centre (Krawczyk and Neumaier 1985),
+//! hence are never wider than derivatives over the range: for a product `a b - a(m) b(m) = (a - a(m)) b +
+//! a(m) (b - b(m))`.
 
 use crate::Interval;
 use eigenring_spline::bernstein::Coefficient;
@@ -25,7 +26,8 @@ pub trait Enclose: Coefficient {
     /// An interval that holds every value the number can have.
     fn enclosure(&self) -> Interval;
 
-    /// An interval that holds the value at the centre of the parameters; the enclosure itself where there are none.
+    /// An interval that holds the value at the centre of the parameters; the enclosure itself where there are
+    /// none.
     fn central(&self) -> Interval {
         self.enclosure()
     }
@@ -65,7 +67,8 @@ impl<const D: usize> Centred<D> {
         }
     }
 
-    /// The parameter of a direction, running over the given range; nothing is known where the range is not bounded.
+    /// The parameter of a direction, running over the given range; nothing is known where the range is not
+    /// bounded.
     pub fn parameter(range: Interval, direction: usize) -> Self {
         let mut slopes = [Interval::point(0.0); D];
         // a radius that is rounded up leaves t within [-1, 1]
@@ -77,8 +80,8 @@ impl<const D: usize> Centred<D> {
         }
     }
 
-    /// A number known by its value at the centre, its derivatives over the range with respect to each `t_j`, and possibly
-    /// (else [`Interval::ENTIRE`]) by its range.
+    /// A number known by its value at the centre, its derivatives over the range with respect to each `t_j`,
+    /// and possibly (else [`Interval::ENTIRE`]) by its range.
     pub fn from_parts(central: Interval, slopes: [Interval; D], range: Interval) -> Self {
         Self::sharpened(central, slopes, range)
     }

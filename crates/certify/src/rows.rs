@@ -1,16 +1,17 @@
 //! Statements about weights: affine invariance and the convex hull property.
 //!
-//! Both are read off the rows of the refinement itself, whatever passes it is made of: a refined point is affinely invariant if
-//! the weights of control points in it sum to 1, and in the convex hull if they are not negative. Beyond the rings that
-//! special stencils reach every row is one of the regular ones, so that two rings more than those show all rows. Levels that
-//! differ are looked at one by one, the limit level last.
+//! Both are read off the rows of the refinement itself, whatever passes it is made of: a refined point is
+//! affinely invariant if the weights of control points in it sum to 1, and in the convex hull if they are not
+//! negative. Beyond the rings that special stencils reach every row is one of the regular ones, so that two
+//! rings more than those show all rows. Levels that differ are looked at one by one, the limit level last.
 
 use crate::exact::{Field, row_sum_defect};
 use crate::{Check, Error, Interval, Statement, Subject, Witness};
 use eigenring_scheme::{Error as SchemeError, Exact, Lattice, Level, Net, Scalar, Site, refine};
 use std::collections::BTreeMap;
 
-/// Points of which all rows are looked at: those of special and closed rings, and two rings more for the regular rules.
+/// Points of which all rows are looked at: those of special and closed rings, and two rings more for the
+/// regular rules.
 fn sites(level: &Level<Interval>) -> Result<Vec<Site>, Error> {
     // the closed rings hold all special ones
     let rings = level.closed_rings()? + 2;
@@ -136,8 +137,8 @@ fn row_sums_of(
     Ok(Check::undecided(NAME, text).enclosing(worst))
 }
 
-/// Weights that were rounded one by one have sums that differ from 1 by less: half a unit in the last place of each of 1000
-/// weights below 1, with room for the rounding of their own computation.
+/// Weights that were rounded one by one have sums that differ from 1 by less: half a unit in the last place
+/// of each of 1000 weights below 1, with room for the rounding of their own computation.
 const ROUNDING: f64 = 1e-12;
 
 /// `hull`: no weight of any level is negative.

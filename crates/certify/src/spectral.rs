@@ -1,16 +1,16 @@
 //! Enclosures of the whole spectrum of a scheme, and of the vectors that belong to it.
 //!
-//! The matrix whose eigenvalues decide is the local matrix on all rings that determine the patches of the regular
-//! [`Annulus`], not the smallest closed one: outer rings have eigenvalues of their own, and one that equals
-//! lambda makes it defective. It is taken apart before anything is enclosed:
+//! The matrix whose eigenvalues decide is the local matrix on all rings that determine the patches of the
+//! regular [`Annulus`], not the smallest closed one: outer rings have eigenvalues of their own, and one that
+//! equals lambda makes it defective. It is taken apart before anything is enclosed:
 //!
-//! 1. into Fourier [`Block`]s, real where the rules have mirror symmetry; block N-k is the conjugate of block k; unknowns
-//!    that no patch depends on, at any level, are dropped;
+//! 1. into Fourier [`Block`]s, real where the rules have mirror symmetry; block N-k is the conjugate of block
+//!    k; unknowns that no patch depends on, at any level, are dropped;
 //! 2. block 0 is divided by the constant vector, whose eigenvalue 1 is exact where rows sum to 1 exactly;
-//! 3. each block into the strongly connected components of its graph, with entries that are **exactly** zero as missing
-//!    edges: its eigenvalues are those of the diagonal parts (`graph`);
-//! 4. each component by dividing out simple real eigenpairs one after the other, with closed forms for the last two and a
-//!    bound of the moduli where pairs cannot be told apart (`component`).
+//! 3. each block into the strongly connected components of its graph, with entries that are **exactly** zero
+//!    as missing edges: its eigenvalues are those of the diagonal parts (`graph`);
+//! 4. each component by dividing out simple real eigenpairs one after the other, with closed forms for the
+//!    last two and a bound of the moduli where pairs cannot be told apart (`component`).
 //!
 //! Every eigenvalue is accounted for: by an enclosure, or as one of so many below a radius.
 
@@ -69,7 +69,8 @@ pub struct Bound {
 }
 
 impl Spectrum {
-    /// The spectrum of a subject's blocks, with the help of evidence. Evidence that is missing or wrong leaves wide bounds.
+    /// The spectrum of a subject's blocks, with the help of evidence. Evidence that is missing or wrong
+    /// leaves wide bounds.
     pub fn new(annulus: Annulus, blocks: Vec<Block>, evidence: &Evidence) -> Self {
         let (mut entries, mut bounds) = (Vec::new(), Vec::new());
         let none = Peel::default();
@@ -154,7 +155,8 @@ pub fn problem(scheme: &eigenring_scheme::Scheme<Interval>) -> Result<(Annulus, 
     Ok((annulus, blocks(scheme.limit(), &annulus)?))
 }
 
-/// The largest number of unknowns of a block: dense matrices, of which there are N/2 + 1. Tension of order 22 needs 930.
+/// The largest number of unknowns of a block: dense matrices, of which there are N/2 + 1. Tension of order 22
+/// needs 930.
 pub const MAX_BLOCK: usize = 1000;
 
 /// The blocks of an input at a valence.

@@ -20,8 +20,8 @@ pub enum Status {
 }
 
 impl Status {
-    /// What is known of two statements together: the one conjunction of this crate. A refuted part refutes the whole; an
-    /// undecided one leaves it undecided; a numerical one leaves it numerical.
+    /// What is known of two statements together: the one conjunction of this crate. A refuted part refutes
+    /// the whole; an undecided one leaves it undecided; a numerical one leaves it numerical.
     pub fn and(self, other: Status) -> Status {
         let rank = |status| match status {
             Status::Refuted => 0,
@@ -78,7 +78,8 @@ pub struct Check {
     pub name: Statement,
     /// How much is known.
     pub status: Status,
-    /// Whether the statement holds, as far as is known: true if proven, or if computed to hold for rounded numbers.
+    /// Whether the statement holds, as far as is known: true if proven, or if computed to hold for rounded
+    /// numbers.
     pub holds: bool,
     /// Whether the status is a proof.
     pub rigorous: bool,
@@ -220,7 +221,8 @@ impl Check {
         if self.status == Status::Proven {
             self.status = Status::Numerical;
         }
-        // rows of rounded weights sum to 1 only nearly, so that not even a refutation is one of an exact scheme
+        // rows of rounded weights sum to 1 only nearly, so that not even a refutation is one of an exact
+        // scheme
         self.rigorous = false;
         self
     }
@@ -230,7 +232,8 @@ impl Check {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Requirement {
-    /// Tangent-plane continuity and single sheets: the criterion of Reif (1995) with that of Peters and Reif (1998).
+    /// Tangent-plane continuity and single sheets: the criterion of Reif (1995) with that of Peters and Reif
+    /// (1998).
     C1,
     /// C1, and curvatures stay bounded.
     Bounded,

@@ -1,5 +1,6 @@
-//! **Claim**: `spectrum`, `matrix` and `verify` take any corner that a scheme has rules for, and refuse others by name.
-//! **Oracle**: eigenvalues in closed form; the libraries are tested in `tests/tests/corners.rs`.
+//! **Claim**: `spectrum`, `matrix` and `verify` take any corner that a scheme has rules for, and refuse
+//! others by name. **Oracle**: eigenvalues in closed form; the libraries are tested in
+//! `tests/tests/corners.rs`.
 
 mod common;
 

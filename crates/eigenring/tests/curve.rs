@@ -1,4 +1,5 @@
-//! Curves: refinement and limits against closed forms and hand-made masks; files, pictures, and what is refused.
+//! Curves: refinement and limits against closed forms and hand-made masks; files, pictures, and what is
+//! refused.
 
 #![allow(missing_docs)]
 

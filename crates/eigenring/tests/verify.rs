@@ -1,4 +1,5 @@
-//! Certificates on the command line: verdicts and exit codes, planted faults, tampered files, what is refused.
+//! Certificates on the command line: verdicts and exit codes, planted faults, tampered files, what is
+//! refused.
 
 #![allow(missing_docs)]
 
@@ -115,7 +116,8 @@ fn fields_and_exit_codes() {
 #[test]
 fn catmull_clark_is_c1_and_its_curvature_what_is_known_of_it() {
     let place = Place::new();
-    // Peters and Reif (2008), 6.2, for lambda; mu in block 2 by the same formula with the cosine of that block
+    // Peters and Reif (2008), 6.2, for lambda; mu in block 2 by the same formula with the cosine of that
+    // block
     let eigenvalue = |n: usize, k: usize| {
         let c = (std::f64::consts::TAU * k as f64 / n as f64).cos();
         (c + 5.0 + ((c + 9.0) * (c + 1.0)).sqrt()) / 16.0
@@ -503,7 +505,8 @@ fn bad_input() {
 #[test]
 fn large_blocks_end_with_something_honest() {
     let place = Place::new();
-    // too large for exact characteristic polynomials: proven or undecided with a reason, and exit codes accordingly
+    // too large for exact characteristic polynomials: proven or undecided with a reason, and exit codes
+    // accordingly
     let run = place.run(&["verify", "--scheme", "tension:order=12", "-N", "5", "--format", "json"]);
     let found: Value = serde_json::from_str(&run.stdout).unwrap();
     assert_eq!(run.code, Some(i32::from(found["status"] != "proven")), "{}", run.stderr);

@@ -1,7 +1,8 @@
 //! A chart: two axes and layers of data, in the data's own coordinates.
 //!
-//! Layers are drawn in the order in which they are added, so bands and cells come first. Whatever lies outside the axes' ranges is cut off; a point that is not
-//! finite interrupts a line and is left out elsewhere. A layer with a label appears in the legend.
+//! Layers are drawn in the order in which they are added, so bands and cells come first. Whatever lies
+//! outside the axes' ranges is cut off; a point that is not finite interrupts a line and is left out
+//! elsewhere. A layer with a label appears in the legend.
 
 use crate::colour::{Colour, ColourScale};
 use crate::scene::{Dash, Stroke};
@@ -86,7 +87,8 @@ impl Axis {
     }
 }
 
-/// The smallest range that holds all finite values, widened by a fraction of itself at both ends; `None` if there are none.
+/// The smallest range that holds all finite values, widened by a fraction of itself at both ends; `None` if
+/// there are none.
 pub fn range_of(values: impl IntoIterator<Item = f64>, margin: f64) -> Option<(f64, f64)> {
     let finite = values.into_iter().filter(|value| value.is_finite());
     let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
@@ -279,8 +281,8 @@ impl Chart {
         }
     }
 
-    /// A picture of the plane: the same scale in both directions, no frame, ticks and labels. For natural configurations
-    /// and characteristic maps.
+    /// A picture of the plane: the same scale in both directions, no frame, ticks and labels. For natural
+    /// configurations and characteristic maps.
     pub fn map(x: (f64, f64), y: (f64, f64)) -> Self {
         Chart {
             equal: true,
@@ -314,7 +316,8 @@ impl Chart {
         self.add(Layer::Series { points, style })
     }
 
-    /// The area between two curves, given as `[x, low, high]`; where any of them is not finite it is interrupted.
+    /// The area between two curves, given as `[x, low, high]`; where any of them is not finite it is
+    /// interrupted.
     pub fn band(self, points: impl IntoIterator<Item = [f64; 3]>, colour: Colour, opacity: f64) -> Self {
         let points = points.into_iter().collect();
         self.add(Layer::Band {
@@ -329,7 +332,8 @@ impl Chart {
         self.add(Layer::Span { from, to, colour })
     }
 
-    /// A vertical line with a text above the frame, or an empty one. Texts that are too close are moved apart.
+    /// A vertical line with a text above the frame, or an empty one. Texts that are too close are moved
+    /// apart.
     pub fn vertical(self, at: f64, text: impl Into<String>, stroke: Stroke) -> Self {
         let text = text.into();
         self.add(Layer::Rule {
@@ -350,7 +354,8 @@ impl Chart {
         })
     }
 
-    /// Polygons coloured by a value each, without seams between them. The panel or the figure needs a colour bar for the scale.
+    /// Polygons coloured by a value each, without seams between them. The panel or the figure needs a colour
+    /// bar for the scale.
     pub fn cells(mut self, cells: impl IntoIterator<Item = (Vec<[f64; 2]>, f64)>, scale: &ColourScale) -> Self {
         let cells: Vec<_> = cells.into_iter().collect();
         self.scales

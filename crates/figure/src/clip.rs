@@ -50,7 +50,8 @@ pub(crate) fn polyline(points: &[[f64; 2]], to: &Rect) -> Vec<Vec<[f64; 2]>> {
     pieces
 }
 
-/// The part of a polygon inside the rectangle (Sutherland and Hodgman 1974); empty if nothing is left or a corner is not finite.
+/// The part of a polygon inside the rectangle (Sutherland and Hodgman 1974); empty if nothing is left or a
+/// corner is not finite.
 pub(crate) fn polygon(corners: &[[f64; 2]], to: &Rect) -> Vec<[f64; 2]> {
     if !corners.iter().flatten().all(|c| c.is_finite()) {
         return Vec::new();

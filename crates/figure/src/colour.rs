@@ -1,9 +1,10 @@
 //! Colours: one set for lines, and scales for values.
 //!
-//! Lines take the colours of Okabe and Ito (Color Universal Design, 2008), which readers with any common colour blindness tell apart,
-//! in an order in which neighbours also differ in grey; dashes and markers repeat the distinction. Values take *viridis* or
-//! *cividis*, whose lightness rises evenly, or a diverging scale, neutral in the middle, whose two ends differ in lightness: dark
-//! blue is below the middle, mid-grey orange above it, also on a grey print.
+//! Lines take the colours of Okabe and Ito (Color Universal Design, 2008), which readers with any common
+//! colour blindness tell apart, in an order in which neighbours also differ in grey; dashes and markers
+//! repeat the distinction. Values take *viridis* or *cividis*, whose lightness rises evenly, or a diverging
+//! scale, neutral in the middle, whose two ends differ in lightness: dark blue is below the middle, mid-grey
+//! orange above it, also on a grey print.
 
 use crate::error::Error;
 
@@ -23,8 +24,8 @@ impl Colour {
     /// Shading of an interval that is recommended.
     pub const SHADE: Colour = Colour(0xe3, 0xf1, 0xe8);
 
-    /// After Okabe and Ito, blue and purple darkened and yellow turned to ochre, so that neighbours differ in grey and none is too light
-    /// for a line: blue, vermillion, purple, green, sky blue, ochre.
+    /// After Okabe and Ito, blue and purple darkened and yellow turned to ochre, so that neighbours differ in
+    /// grey and none is too light for a line: blue, vermillion, purple, green, sky blue, ochre.
     pub const LINES: [Colour; 6] = [
         Colour(0x00, 0x5b, 0x96),
         Colour(0xd5, 0x5e, 0x00),
@@ -113,7 +114,8 @@ pub struct ColourScale {
     pub label: String,
 }
 
-/// Steps of a colour bar, and of the colours of cells: beyond what eight bits show of a linear map, fewer give smaller files.
+/// Steps of a colour bar, and of the colours of cells: beyond what eight bits show of a linear map, fewer
+/// give smaller files.
 const STEPS: f64 = 255.0;
 
 impl ColourScale {

@@ -1,7 +1,7 @@
 //! A figure: panels on a grid, with what they share, at printed size.
 //!
-//! The width of the figure is that of the printed column, so that text has its nominal size on paper. Panels of a row or column have
-//! aligned frames: each gets the largest margins that any of them needs.
+//! The width of the figure is that of the printed column, so that text has its nominal size on paper. Panels
+//! of a row or column have aligned frames: each gets the largest margins that any of them needs.
 
 use crate::chart::Chart;
 use crate::colour::{Colour, ColourScale};
@@ -153,7 +153,8 @@ pub struct Layout {
 const TOUCH: f64 = 0.15;
 
 impl Layout {
-    /// What is wrong with the layout: texts beyond the page or over each other, legends over data. Empty if nothing is.
+    /// What is wrong with the layout: texts beyond the page or over each other, legends over data. Empty if
+    /// nothing is.
     pub fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         for (index, (text, rect)) in self.texts.iter().enumerate() {
@@ -221,7 +222,8 @@ impl Figure {
         self
     }
 
-    /// The heights of the rows relative to each other; equal by default. Frames, not their margins, have these proportions.
+    /// The heights of the rows relative to each other; equal by default. Frames, not their margins, have
+    /// these proportions.
     pub fn row_heights(mut self, relative: &[f64]) -> Self {
         self.rows = relative.to_vec();
         self
@@ -267,14 +269,16 @@ impl Figure {
     /// The figure as SVG. Equal figures give equal bytes.
     ///
     /// # Errors
-    /// [`Error::Range`] for an axis or colour scale without extent, [`Error::NoColourBar`] for coloured values that no bar explains,
-    /// [`Error::NoRoom`], [`Error::Size`] and [`Error::Grid`] for a page too small, too large or empty, [`Error::Character`] for text beyond the font.
+    /// [`Error::Range`] for an axis or colour scale without extent, [`Error::NoColourBar`] for coloured
+    /// values that no bar explains, [`Error::NoRoom`], [`Error::Size`] and [`Error::Grid`] for a page too
+    /// small, too large or empty, [`Error::Character`] for text beyond the font.
     pub fn svg(&self) -> Result<String, Error> {
         let page = self.draw()?;
         Ok(page.scene.svg(&self.description, &page.font))
     }
 
-    /// The figure as PNG: the SVG, rasterised at so many dots per inch of the printed size, which the file records.
+    /// The figure as PNG: the SVG, rasterised at so many dots per inch of the printed size, which the file
+    /// records.
     ///
     /// # Errors
     /// Those of [`Figure::svg`], and [`Error::Resolution`].
@@ -527,7 +531,8 @@ fn share(relative: &[f64], which: RangeInclusive<usize>, total: f64) -> f64 {
     total * relative[which].iter().sum::<f64>() / relative.iter().sum::<f64>()
 }
 
-/// The frames' extents along rows or columns, from the margins before and after each; `total` is without the gaps between.
+/// The frames' extents along rows or columns, from the margins before and after each; `total` is without the
+/// gaps between.
 fn intervals(relative: &[f64], before: &[f64], after: &[f64], origin: f64, total: f64) -> Vec<(f64, f64)> {
     let free = total - before.iter().chain(after).sum::<f64>();
     let mut at = origin;

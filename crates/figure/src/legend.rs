@@ -29,7 +29,8 @@ enum Swatch {
     Rule(Stroke),
 }
 
-/// Lengths of a legend, in millimetres: sample, its distance to the text, distance between entries, height of a row.
+/// Lengths of a legend, in millimetres: sample, its distance to the text, distance between entries, height of
+/// a row.
 const SAMPLE: f64 = 6.0;
 const BESIDE: f64 = 1.0;
 const BETWEEN: f64 = 3.2;
@@ -178,7 +179,8 @@ fn bar_ticks(scale: &ColourScale, height: f64) -> Vec<ticks::Tick> {
     ticks::linear(scale.range.0, scale.range.1, ((height / 8.0) as usize).clamp(3, 9))
 }
 
-/// Draws a colour bar to the right of `beside`; `beyond` says whether values lie below or above its range, which arrows show.
+/// Draws a colour bar to the right of `beside`; `beyond` says whether values lie below or above its range,
+/// which arrows show.
 pub(crate) fn draw_bar(page: &mut Page, scale: &ColourScale, beside: Rect, beyond: [bool; 2]) -> Result<(), Error> {
     let (left, right) = (beside.right + AWAY, beside.right + AWAY + BAR);
     let bottom = beside.bottom - if beyond[0] { ARROW } else { 0.0 };

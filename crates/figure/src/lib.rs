@@ -1,12 +1,13 @@
 //! Figures at printed size: charts, maps and surfaces as SVG and PNG.
 //!
-//! The crate draws. It knows nothing of subdivision, reads and writes no files, and needs no font of the system: characters are outlines of
-//! an embedded DejaVu Sans. Axes, grids, ticks and series of charts are drawn by plotters. The PNG is the rasterised SVG. Equal figures give
-//! equal bytes.
+//! The crate draws. It knows nothing of subdivision, reads and writes no files, and needs no font of the
+//! system: characters are outlines of an embedded DejaVu Sans. Axes, grids, ticks and series of charts are
+//! drawn by plotters. The PNG is the rasterised SVG. Equal figures give equal bytes.
 //!
-//! A [`Figure`] is as wide as one or two printed columns and holds [`Panel`]s on a grid. A panel shows a [`Chart`] (two [`Axis`] and layers:
-//! lines, markers, bands, rules, coloured cells, texts) or a [`Surface`] in space. Colours of values come from a [`ColourScale`], which a colour bar must explain.
-//! Texts are plain Unicode with symbols between dollar signs, as in `$λ_C^*$`.
+//! A [`Figure`] is as wide as one or two printed columns and holds [`Panel`]s on a grid. A panel shows a
+//! [`Chart`] (two [`Axis`] and layers: lines, markers, bands, rules, coloured cells, texts) or a [`Surface`]
+//! in space. Colours of values come from a [`ColourScale`], which a colour bar must explain. Texts are plain
+//! Unicode with symbols between dollar signs, as in `$λ_C^*$`.
 //!
 //! ```
 //! use eigenring_figure::{Axis, Chart, Colour, Dash, Figure, Marker, Panel, Side, Stroke, Style, Width};
@@ -43,9 +44,9 @@
 //! assert!(figure.svg().is_ok());
 //! ```
 //!
-//! Where things go: panels are aligned by their frames; legends stand above, below or to the right of the data, never on them; a colour bar is
-//! at the right of its panel, or of the figure. [`Layout::faults`] finds texts that leave the page or overlap and legends that cover data, and is
-//! meant for tests of figures.
+//! Where things go: panels are aligned by their frames; legends stand above, below or to the right of the
+//! data, never on them; a colour bar is at the right of its panel, or of the figure. [`Layout::faults`] finds
+//! texts that leave the page or overlap and legends that cover data, and is meant for tests of figures.
 
 mod axes;
 mod backend;

@@ -1,8 +1,8 @@
 //! What is drawn, in millimetres on the page, and its SVG text.
 //!
-//! A scene is a list of shapes from back to front: paths, meshes of filled cells, circles, and text. Everything is clipped before it gets here, so that
-//! no clip paths (whose identifiers would clash on a page with several pictures) are needed. Numbers have a fixed count of decimals: equal scenes give
-//! equal bytes.
+//! A scene is a list of shapes from back to front: paths, meshes of filled cells, circles, and text.
+//! Everything is clipped before it gets here, so that no clip paths (whose identifiers would clash on a page
+//! with several pictures) are needed. Numbers have a fixed count of decimals: equal scenes give equal bytes.
 
 use crate::colour::Colour;
 use crate::text::{Font, Placed};

@@ -1,9 +1,11 @@
 //! Surfaces in space: orthographic projection, painter's algorithm, diffuse shading.
 //!
-//! A surface is a list of small quadrilaterals. Seen along the unit vector `d = (cos e cos a, cos e sin a, sin e)` from the eye's side (azimuth a,
-//! elevation e), a point is drawn at its coordinates along `(-sin a, cos a, 0)` and `d x` that; quadrilaterals are drawn in the order of their
-//! centres' depth `p . d`, the farthest first (Newell, Newell and Sancha 1972). That is exact for the graphs of functions over fine
-//! grids, which is what second-order maps are; larger quadrilaterals that pass through each other are not resolved.
+//! A surface is a list of small quadrilaterals. Seen along the unit vector `d = (cos e cos a, cos e sin a,
+//! sin e)` from the eye's side (azimuth a, elevation e), a point is drawn at its coordinates along `(-sin a,
+//! cos a, 0)` and `d x` that; quadrilaterals are drawn in the order of their centres' depth `p . d`, the
+//! farthest first (Newell, Newell and Sancha 1972). That is exact for the graphs of functions over fine
+//! grids, which is what second-order maps are; larger quadrilaterals that pass through each other are not
+//! resolved.
 
 use crate::chart::range_of;
 use crate::colour::{Colour, ColourScale};
@@ -50,7 +52,8 @@ struct Quad {
 pub struct Surface {
     /// Where it is seen from.
     pub view: View,
-    /// How much darker a face turned away from the light is: 0 shows values as they are in the colour bar, 1 full shading.
+    /// How much darker a face turned away from the light is: 0 shows values as they are in the colour bar, 1
+    /// full shading.
     pub shade: f64,
     quads: Vec<Quad>,
     lines: Vec<(Vec<[f64; 3]>, Stroke)>,
@@ -82,7 +85,8 @@ fn mean<'a>(points: impl ExactSizeIterator<Item = &'a [f64; 3]>) -> [f64; 3] {
     sum.map(|s| s / count)
 }
 
-/// Lines lie on the surface, and are drawn before what is nearer than they by this part of the surface's extent.
+/// Lines lie on the surface, and are drawn before what is nearer than they by this part of the surface's
+/// extent.
 const BIAS: f64 = 0.02;
 
 impl Surface {
@@ -98,7 +102,8 @@ impl Surface {
         }
     }
 
-    /// Quadrilaterals, corners in turn, coloured by a value each. Those with a corner that is not finite are left out.
+    /// Quadrilaterals, corners in turn, coloured by a value each. Those with a corner that is not finite are
+    /// left out.
     pub fn quads(mut self, quads: impl IntoIterator<Item = ([[f64; 3]; 4], f64)>, scale: &ColourScale) -> Self {
         let quads: Vec<_> = quads.into_iter().collect();
         self.scales
@@ -118,8 +123,8 @@ impl Surface {
         self
     }
 
-    /// Scales the picture so that this box, given by two opposite corners, fits; panels with the same box have the same scale.
-    /// Otherwise the surface itself fills the panel.
+    /// Scales the picture so that this box, given by two opposite corners, fits; panels with the same box
+    /// have the same scale. Otherwise the surface itself fills the panel.
     pub fn within(mut self, corners: [[f64; 3]; 2]) -> Self {
         self.box_ = Some(corners);
         self

@@ -1,9 +1,10 @@
 //! Text as outlines of an embedded font.
 //!
-//! A figure must look the same everywhere, so its characters are drawn as the outlines of DejaVu Sans and need no font of the reader's.
-//! Symbols are written between dollar signs, as in LaTeX: letters become oblique, `_` and `^` (with braces for more than one character)
-//! lower and raise, and a sub- and a superscript of one symbol stand above each other: `$λ_C^*$`, `$10^{-3}$`. The oblique letters
-//! are the upright ones, sheared by the angle of DejaVu Sans Oblique.
+//! A figure must look the same everywhere, so its characters are drawn as the outlines of DejaVu Sans and
+//! need no font of the reader's. Symbols are written between dollar signs, as in LaTeX: letters become
+//! oblique, `_` and `^` (with braces for more than one character) lower and raise, and a sub- and a
+//! superscript of one symbol stand above each other: `$λ_C^*$`, `$10^{-3}$`. The oblique letters are the
+//! upright ones, sheared by the angle of DejaVu Sans Oblique.
 //!
 //! All lengths are millimetres, y points down, and the origin of a text is the left end of its baseline.
 
@@ -20,7 +21,8 @@ pub const POINT: f64 = 25.4 / 72.0;
 const SHEAR: f64 = 0.194;
 /// Size of sub- and superscripts relative to the text.
 const SCRIPT: f64 = 0.72;
-/// Their shifts, relative to the text's size: a subscript's capital and the superscript above it do not touch.
+/// Their shifts, relative to the text's size: a subscript's capital and the superscript above it do not
+/// touch.
 const LOWER: f64 = 0.22;
 const RAISE: f64 = 0.42;
 /// Height of capitals and depth of descenders, relative to the size; from the font.

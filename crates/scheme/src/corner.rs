@@ -12,8 +12,8 @@ pub enum Centre {
     Vertex,
     /// The middle of a face.
     Face,
-    /// The middle of a face that is never split, between strips of faces of zero width along its spokes: control points are doubled
-    /// along each spoke (HNUSS: Li, Wei and Zhang 2019, section 4).
+    /// The middle of a face that is never split, between strips of faces of zero width along its spokes:
+    /// control points are doubled along each spoke (HNUSS: Li, Wei and Zhang 2019, section 4).
     SplitFace,
 }
 
@@ -53,7 +53,8 @@ impl Spoke {
     };
 }
 
-/// Fans with more sectors are a typing error rather than a corner: a dense local matrix would not fit into memory.
+/// Fans with more sectors are a typing error rather than a corner: a dense local matrix would not fit into
+/// memory.
 pub const MAX_SECTORS: usize = 1000;
 
 /// A corner in few words: what certificates store and options say.
@@ -92,7 +93,8 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// The corner of this shape around a centre of the given kind, with creases that act in the given number of steps.
+    /// The corner of this shape around a centre of the given kind, with creases that act in the given number
+    /// of steps.
     ///
     /// # Errors
     /// Those of the constructors of [`Corner`].
@@ -116,9 +118,9 @@ impl Shape {
 
 /// A centre with everything that decides the rules around it.
 ///
-/// A closed fan has N spokes, an open one, which is a boundary or one side of a crease, N + 1, of which the first and the last
-/// are sharp. With one sharp spoke a closed fan is a **dart**. The centre may be fixed: a **corner** if it has sharp spokes, a
-/// **cusp** if it has none.
+/// A closed fan has N spokes, an open one, which is a boundary or one side of a crease, N + 1, of which the
+/// first and the last are sharp. With one sharp spoke a closed fan is a **dart**. The centre may be fixed: a
+/// **corner** if it has sharp spokes, a **cusp** if it has none.
 #[derive(Clone, Debug)]
 pub struct Corner {
     fan: Fan,
@@ -140,8 +142,8 @@ impl Corner {
         Self::of(Fan::Closed(sectors), centre, Spoke::SMOOTH)
     }
 
-    /// A vertex on a boundary, or one side of a crease vertex, with so many faces. With one face it is a crease vertex as well,
-    /// unless it is [fixed](Corner::fixed).
+    /// A vertex on a boundary, or one side of a crease vertex, with so many faces. With one face it is a
+    /// crease vertex as well, unless it is [fixed](Corner::fixed).
     ///
     /// # Errors
     /// [`Error::Sectors`] unless there are 1 to [`MAX_SECTORS`] faces.
@@ -192,8 +194,8 @@ impl Corner {
         self
     }
 
-    /// The same with creases, and a fixed centre, that act in the first `steps` smoothing steps of each level only; boundaries
-    /// act in all. For schemes of even order with several steps.
+    /// The same with creases, and a fixed centre, that act in the first `steps` smoothing steps of each level
+    /// only; boundaries act in all. For schemes of even order with several steps.
     pub fn with_steps(mut self, steps: usize) -> Self {
         self.steps = Some(steps);
         self
@@ -202,7 +204,8 @@ impl Corner {
     /// The same with knot intervals: of the first edge of each spoke, and of all further ones.
     ///
     /// # Errors
-    /// [`Error::Intervals`] unless there is one pair for each spoke, all finite and not negative, and no spoke is zero as a whole.
+    /// [`Error::Intervals`] unless there is one pair for each spoke, all finite and not negative, and no
+    /// spoke is zero as a whole.
     pub fn with_intervals(mut self, intervals: &[f64], next: &[f64]) -> Result<Self, Error> {
         let spokes = self.spokes.len();
         for list in [intervals, next] {

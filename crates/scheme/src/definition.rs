@@ -4,8 +4,8 @@ use crate::families::{catmull_clark_around, tension_around, with_intervals};
 use crate::user::UserScheme;
 use crate::{Centre, Corner, Error, Exact, Lattice, Scalar, Scheme, Spec};
 
-/// A scheme before it is known around what: a family with its parameters, or a file. [`Definition::around`] is the only way
-/// from a name or a file to rules.
+/// A scheme before it is known around what: a family with its parameters, or a file. [`Definition::around`]
+/// is the only way from a name or a file to rules.
 #[derive(Clone, Debug)]
 pub enum Definition {
     /// A registered family.
@@ -53,7 +53,8 @@ impl Definition {
     /// The rules around a corner.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for a kind of corner that the scheme has no rules for; those of the family or file.
+    /// [`Error::Unsupported`] for a kind of corner that the scheme has no rules for; those of the family or
+    /// file.
     pub fn around<S: Scalar + Copy>(&self, corner: &Corner) -> Result<Scheme<S>, Error> {
         let valence = corner.sectors().sectors();
         if corner.is_plain() && corner.centre() == self.centre() {

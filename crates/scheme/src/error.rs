@@ -2,8 +2,8 @@
 
 use crate::{Lattice, Site};
 
-/// Why a scheme, a parameter or a scheme file is refused. Every variant carries the offending numbers; the message of a
-/// range error ends with the accepted range.
+/// Why a scheme, a parameter or a scheme file is refused. Every variant carries the offending numbers; the
+/// message of a range error ends with the accepted range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -27,7 +27,8 @@ pub enum Error {
         /// The lambda it was given for.
         lambda: f64,
     },
-    /// The rule for s asks for a mu that is not below lambda: what is out of range is the valence, and not an s that was given.
+    /// The rule for s asks for a mu that is not below lambda: what is out of range is the valence, and not an
+    /// s that was given.
     #[error(
         "at N = {valence}, lambda = {lambda} the rule for s gives {s}, which is not below 1/lambda = {}: accepted is a smaller valence",
         1.0 / lambda

@@ -12,16 +12,17 @@ pub struct Parts {
     pub rational: BigRational,
     /// The factor of the cosine; zero for a rational number.
     pub cosine: BigRational,
-    /// The angle as a fraction `(k, n)` of a full turn, `0 <= 2k <= n`, in lowest terms; `(0, 1)` for a rational number.
+    /// The angle as a fraction `(k, n)` of a full turn, `0 <= 2k <= n`, in lowest terms; `(0, 1)` for a
+    /// rational number.
     pub turn: (i64, i64),
 }
 
-/// The number `a + b cos(2 pi k/n)` with rational a and b of any size, or nothing: an operation that leaves this set (a sum of
-/// two different cosines, a product of two, the root of a number that is not a square) gives a number without value, and so
-/// does every operation with one.
+/// The number `a + b cos(2 pi k/n)` with rational a and b of any size, or nothing: an operation that leaves
+/// this set (a sum of two different cosines, a product of two, the root of a number that is not a square)
+/// gives a number without value, and so does every operation with one.
 ///
-/// All rational schemes and the original Doo-Sabin weights consist of such numbers. Symmetry and the degree of the regular part
-/// are derived from them, and equalities are decided in them.
+/// All rational schemes and the original Doo-Sabin weights consist of such numbers. Symmetry and the degree
+/// of the regular part are derived from them, and equalities are decided in them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Exact(Option<Box<Parts>>);
 

@@ -3,13 +3,13 @@
 use crate::{Error, Net, Numbering, Scalar, Site};
 use std::ops::Range;
 
-/// Control points of Fourier index `k`: `P_i(x, y) = w^{k i} v(x, y)`, `w = exp(2 pi i / N)`; a refined point's value is its
-/// row of the block `S_k`, a complex linear form.
+/// Control points of Fourier index `k`: `P_i(x, y) = w^{k i} v(x, y)`, `w = exp(2 pi i / N)`; a refined
+/// point's value is its row of the block `S_k`, a complex linear form.
 ///
-/// For a level with mirror symmetry the unknowns are **real**: points of a spoke have `v = r`, points of the diagonal
-/// `v = w^{k/2} r`, and a pair of points `(x, y), (y, x)` with `x > y > 0` has `v = w^{k/2} (p + i q)` and
-/// `w^{k/2} (p - i q)`, `p` standing in the column of `(x, y)` and `q` in that of `(y, x)`. In these unknowns the block is a
-/// real matrix, and only points with `x >= y` need be computed.
+/// For a level with mirror symmetry the unknowns are **real**: points of a spoke have `v = r`, points of the
+/// diagonal `v = w^{k/2} r`, and a pair of points `(x, y), (y, x)` with `x > y > 0` has `v = w^{k/2} (p + i
+/// q)` and `w^{k/2} (p - i q)`, `p` standing in the column of `(x, y)` and `q` in that of `(y, x)`. In these
+/// unknowns the block is a real matrix, and only points with `x >= y` need be computed.
 #[derive(Clone, Debug)]
 pub struct FourierNet<S> {
     /// The control points.
@@ -25,8 +25,8 @@ pub type Complex<S> = (S, S);
 
 /// A linear form on the unknowns of a block.
 ///
-/// A refined point depends on a few rings, which are neighbours in the order of the unknowns: coefficients outside `nonzero`
-/// vanish and are not touched.
+/// A refined point depends on a few rings, which are neighbours in the order of the unknowns: coefficients
+/// outside `nonzero` vanish and are not touched.
 #[derive(Clone, Debug)]
 pub struct Form<S> {
     nonzero: Range<usize>,
@@ -95,7 +95,8 @@ impl<S: Scalar + Copy> FourierNet<S> {
         })
     }
 
-    /// The size of the block: points of one sector, and the centre if the index is 0 and the centre is a point.
+    /// The size of the block: points of one sector, and the centre if the index is 0 and the centre is a
+    /// point.
     pub fn size(&self) -> usize {
         self.numbering.sector_points() + self.centre()
     }
@@ -104,7 +105,8 @@ impl<S: Scalar + Copy> FourierNet<S> {
         usize::from(self.index == 0 && self.numbering.lattice.parity() == 0)
     }
 
-    /// The points whose rows make up the block, in row order: the centre if it takes part, then those of sector 0.
+    /// The points whose rows make up the block, in row order: the centre if it takes part, then those of
+    /// sector 0.
     pub fn rows(&self) -> Vec<Site> {
         let centre = (self.centre() == 1).then_some(Site::CENTRE);
         centre.into_iter().chain(self.numbering.sector_sites(0)).collect()
@@ -125,7 +127,8 @@ impl<S: Scalar + Copy> FourierNet<S> {
         self.half_phases[j % self.half_phases.len()]
     }
 
-    /// The value of a mode at a site, given its unknowns (real ones as (r, 0) if the net has mirror symmetry).
+    /// The value of a mode at a site, given its unknowns (real ones as (r, 0) if the net has mirror
+    /// symmetry).
     pub fn mode(&self, unknowns: &[Complex<S>], site: Site) -> Result<Complex<S>, Error> {
         let control = self.control(self.orbit(site))?;
         let mut moved = self.zero();
@@ -139,8 +142,9 @@ impl<S: Scalar + Copy> FourierNet<S> {
         Ok(sum)
     }
 
-    /// The weight of a point in a linear form on the modes of this index, given the form's coefficients on the unknowns: if
-    /// `P` is any net, the sum of these weights times the points is the form's value on the unknowns of P's part of index k.
+    /// The weight of a point in a linear form on the modes of this index, given the form's coefficients on
+    /// the unknowns: if `P` is any net, the sum of these weights times the points is the form's value on the
+    /// unknowns of P's part of index k.
     ///
     /// # Errors
     /// [`Error::BeyondNet`] if the net does not reach `site`.
@@ -155,7 +159,8 @@ impl<S: Scalar + Copy> FourierNet<S> {
             y: site.x,
             ..site
         };
-        // the unknowns in terms of the values: r = v; r = w^{-k/2} v; p = w^{-k/2} (v + v')/2; q = w^{-k/2} (v - v')/2i
+        // the unknowns in terms of the values: r = v; r = w^{-k/2} v; p = w^{-k/2} (v + v')/2; q = w^{-k/2}
+        // (v - v')/2i
         let (half_turns, own) = if !self.mirror || site.y == 0 {
             (0, own)
         } else if site.x == site.y {
@@ -176,8 +181,8 @@ impl<S: Scalar + Copy> FourierNet<S> {
         Ok(times((phase.0 / n, -(phase.1 / n)), own))
     }
 
-    /// The block's row of the unknown at `site` (of [`FourierNet::rows`]), from the value of its orbit. Imaginary parts are
-    /// zero with mirror symmetry.
+    /// The block's row of the unknown at `site` (of [`FourierNet::rows`]), from the value of its orbit.
+    /// Imaginary parts are zero with mirror symmetry.
     pub fn unknown_row(&self, site: Site, at_orbit: &Form<S>) -> Vec<Complex<S>> {
         let at_orbit = at_orbit.coefficients();
         if !self.mirror || site == Site::CENTRE {
@@ -243,8 +248,8 @@ impl<S: Scalar + Copy> Net<S> for FourierNet<S> {
         Site { sector: 0, x, y }
     }
 
-    /// A point `(x, y)` with `x < y` is the reflection of `(y, x)`: its value is `w^{k (2i+1)/2}` times the conjugate of
-    /// `w^{-k/2} v(y, x)`.
+    /// A point `(x, y)` with `x < y` is the reflection of `(y, x)`: its value is `w^{k (2i+1)/2}` times the
+    /// conjugate of `w^{-k/2} v(y, x)`.
     fn accumulate(&self, sum: &mut Form<S>, &weight: &S, at_orbit: &Form<S>, site: Site) {
         if site == Site::CENTRE && self.index != 0 {
             return;

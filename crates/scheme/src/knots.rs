@@ -1,7 +1,8 @@
 //! The rules of cubic B-splines with knot intervals, across one spoke.
 //!
-//! Points `P_j` of a line have intervals `d_j` between `P_j` and `P_(j+1)`. Halving all intervals makes a point on each edge and
-//! one beside each old point (Sederberg, Zheng, Sewell and Sabin 1998; Boehm's insertion of a knot in the middle of each interval):
+//! Points `P_j` of a line have intervals `d_j` between `P_j` and `P_(j+1)`. Halving all intervals makes a
+//! point on each edge and one beside each old point (Sederberg, Zheng, Sewell and Sabin 1998; Boehm's
+//! insertion of a knot in the middle of each interval):
 //!
 //! ```text
 //! E_j = ((d_j + 2 d_(j+1)) P_j + (d_j + 2 d_(j-1)) P_(j+1)) / (2 (d_(j-1) + d_j + d_(j+1)))     all three zero: the mean
@@ -113,7 +114,8 @@ mod tests {
     }
 
     proptest! {
-        /// Control points of a cubic polynomial are values of its blossom at three knots; refined ones at three refined knots.
+        /// Control points of a cubic polynomial are values of its blossom at three knots; refined ones at
+        /// three refined knots.
         #[test]
         fn rules_are_those_of_blossoms(
             before in 0.1..3.0_f64, far in 0.1..3.0_f64, after in 0.1..3.0_f64, beyond in 0.1..3.0_f64,
@@ -126,7 +128,8 @@ mod tests {
                 -(j..0).map(|i| intervals.edge(i)).sum::<f64>()
             };
             let point = |j: i32| blossom(c, [knot(j - 1), knot(j), knot(j + 1)]);
-            // the refined knots from the spoke on, and the one before: the strip of doubled points is not halved
+            // the refined knots from the spoke on, and the one before: the strip of doubled points is not
+            // halved
             let fine = |j: i32| match j {
                 0.. => knot(j / 2) + f64::from(j % 2) * intervals.edge(j / 2) / 2.0,
                 _ if doubled => knot(-1),

@@ -10,15 +10,18 @@ pub enum Symmetry {
     None,
     /// All sectors have the same rules, so that the local matrix is block-circulant.
     Rotation,
-    /// The rules are the same also after reflection in a spoke, so that every Fourier block is similar to a real matrix.
+    /// The rules are the same also after reflection in a spoke, so that every Fourier block is similar to a
+    /// real matrix.
     Dihedral,
 }
 
-/// One level of refinement: passes in order, the first reading the control net, the last making the refined one.
+/// One level of refinement: passes in order, the first reading the control net, the last making the refined
+/// one.
 ///
-/// The symmetry is **derived** from lines, special stencils and the centre's stencils when a level is made, by
-/// [`Same`] weights; it cannot be stated. A level over exact numbers thus has the symmetry that these numbers have, and a level
-/// over mere names of weights has it for whatever values the names get ([`Level::map`]).
+/// The symmetry is **derived** from lines, special stencils and the centre's stencils when a level is made,
+/// by [`Same`] weights; it cannot be stated. A level over exact numbers thus has the symmetry that these
+/// numbers have, and a level over mere names of weights has it for whatever values the names get
+/// ([`Level::map`]).
 #[derive(Clone, Debug)]
 pub struct Level<W> {
     fan: Fan,
@@ -31,13 +34,13 @@ pub struct Level<W> {
 impl<W: Same> Level<W> {
     /// A level of the given passes, and its symmetry.
     ///
-    /// In a closed fan special stencils that are all listed in sector 0 hold in every sector; if any is listed in another, every
-    /// sector stands for itself.
+    /// In a closed fan special stencils that are all listed in sector 0 hold in every sector; if any is
+    /// listed in another, every sector stands for itself.
     ///
     /// # Errors
-    /// [`Error::Valence`] for a fan without sectors; [`Error::Rules`] if passes do not follow each other, do not refine twofold,
-    /// lines do not connect their nets, special sites or their sources are no points of them, or an open fan is not one of a
-    /// vertex.
+    /// [`Error::Valence`] for a fan without sectors; [`Error::Rules`] if passes do not follow each other, do
+    /// not refine twofold, lines do not connect their nets, special sites or their sources are no points of
+    /// them, or an open fan is not one of a vertex.
     pub fn new(fan: Fan, passes: Vec<Pass<W>>) -> Result<Self, Error> {
         check(fan, &passes)?;
         let mut sites = passes.iter().flat_map(|pass| pass.special().keys());
@@ -92,7 +95,8 @@ impl<W: Same> Level<W> {
     /// Whether a pass of a rotation-symmetric level is its own image under reflection in spoke 0.
     fn is_mirrored(&self, index: usize, pass: &Pass<W>) -> bool {
         let [own, next] = pass.lines(0);
-        // a coordinate along a spoke is positive on both sides of the mirror, so only points on a spoke see both sides
+        // a coordinate along a spoke is positive on both sides of the mirror, so only points on a spoke see
+        // both sides
         let on_spoke = pass.to() == Lattice::Face || next.is_symmetric_on_spoke();
         let mut special = pass.special().iter();
         own.same(next)
@@ -259,8 +263,9 @@ impl<S: Scalar> Level<S> {
     /// How the given pass makes the point `site` of its target net.
     ///
     /// # Errors
-    /// [`Error::AcrossCentre`] if a regular rule reaches into the quadrant opposite to the point's sector, which has no
-    /// meaning unless four sectors meet, or beyond an open fan: such a point needs a special stencil.
+    /// [`Error::AcrossCentre`] if a regular rule reaches into the quadrant opposite to the point's sector,
+    /// which has no meaning unless four sectors meet, or beyond an open fan: such a point needs a special
+    /// stencil.
     pub fn stencil(&self, pass: usize, site: Site) -> Result<Stencil<S>, Error> {
         if let Some(stencil) = self.special(pass, site) {
             return Ok(stencil);
@@ -276,9 +281,9 @@ impl<S: Scalar> Level<S> {
         Ok(stencil)
     }
 
-    /// The mask of one level of refinement at regular points: the weight with which each refined point, at half steps from
-    /// twice the source's place, reads the source. `None` unless it is the same in all sectors and directions and on both
-    /// sides of every spoke, where each line must be its own mirror image.
+    /// The mask of one level of refinement at regular points: the weight with which each refined point, at
+    /// half steps from twice the source's place, reads the source. `None` unless it is the same in all
+    /// sectors and directions and on both sides of every spoke, where each line must be its own mirror image.
     pub fn regular_mask(&self) -> Option<BTreeMap<i32, S>> {
         let uniform = |pass: &Pass<S>| {
             let mut lines = pass.all_lines();
@@ -321,8 +326,9 @@ impl<S: Scalar> Level<S> {
         values.into_iter().map(|(x, value)| (x - 2 * start, value)).collect()
     }
 
-    /// The degree d of the uniform B-splines that the regular rules refine: the mask is `2^-d C(d+1, j)`, centred (Lane and
-    /// Riesenfeld 1980). `None` if the mask is another one, or is not known well enough to tell.
+    /// The degree d of the uniform B-splines that the regular rules refine: the mask is `2^-d C(d+1, j)`,
+    /// centred (Lane and Riesenfeld 1980). `None` if the mask is another one, or is not known well enough to
+    /// tell.
     pub fn spline_degree(&self) -> Option<usize> {
         let mask = self.regular_mask()?;
         let degree = mask.len().checked_sub(2).filter(|&degree| degree > 0)?;

@@ -1,9 +1,10 @@
 //! What a subdivision scheme is, around an extraordinary vertex or face.
 //!
-//! A [`Scheme`] is data: [`Level`]s of [`Pass`]es on the twisted lattice of [`Site`]s. A pass makes regular points by a
-//! tensor product of a [`Line`] rule and points near the centre by explicit [`Stencil`]s; [`refine`] runs passes on any
-//! [`Net`]. Families are constructors in [`families`] and [`lambda`]; user schemes come from TOML through [`user`];
-//! [`Spec`] finds a scheme by name. All of it is generic over the [`Scalar`].
+//! A [`Scheme`] is data: [`Level`]s of [`Pass`]es on the twisted lattice of [`Site`]s. A pass makes regular
+//! points by a tensor product of a [`Line`] rule and points near the centre by explicit [`Stencil`]s;
+//! [`refine`] runs passes on any [`Net`]. Families are constructors in [`families`] and [`lambda`]; user
+//! schemes come from TOML through [`user`]; [`Spec`] finds a scheme by name. All of it is generic over the
+//! [`Scalar`].
 
 mod corner;
 mod definition;

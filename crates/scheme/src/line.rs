@@ -6,13 +6,14 @@ use std::collections::BTreeMap;
 /// The points that make another one: positions in half steps, and weights.
 pub type Taps<W> = Vec<(i32, W)>;
 
-/// A rule of univariate subdivision or smoothing, across one spoke. The regular points of a [`Pass`](crate::Pass) use the tensor
-/// product of two.
+/// A rule of univariate subdivision or smoothing, across one spoke. The regular points of a
+/// [`Pass`](crate::Pass) use the tensor product of two.
 ///
-/// All positions are in half steps from the spoke. A target point `X` belongs to the class `floor(X/2) mod scale`; a tap
-/// `(offset, w)` of its class reads the source point `(X + offset) / scale` with weight `w`. Targets near the spoke may have
-/// taps of their own, given by their sources: a crease keeps what lies beyond it out of its rules, and knot intervals change
-/// from one side of a spoke to the other. Beyond them the rule is uniform.
+/// All positions are in half steps from the spoke. A target point `X` belongs to the class `floor(X/2) mod
+/// scale`; a tap `(offset, w)` of its class reads the source point `(X + offset) / scale` with weight `w`.
+/// Targets near the spoke may have taps of their own, given by their sources: a crease keeps what lies beyond
+/// it out of its rules, and knot intervals change from one side of a spoke to the other. Beyond them the rule
+/// is uniform.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line<W> {
     classes: Vec<Taps<W>>,
@@ -20,7 +21,8 @@ pub struct Line<W> {
 }
 
 impl<W: Clone> Line<W> {
-    /// A uniform rule with one list of taps per class; as many classes as the target is finer than the source.
+    /// A uniform rule with one list of taps per class; as many classes as the target is finer than the
+    /// source.
     pub fn new(classes: Vec<Taps<W>>) -> Self {
         Line {
             classes,
@@ -108,8 +110,9 @@ impl<W: Same> Line<W> {
                 .all(|(a, b)| a.0 == b.0 && taps(a.1, b.1))
     }
 
-    /// Whether the uniform rule for targets of the given parity is its own mirror image. Coordinates count outwards on both sides of
-    /// a spoke, so that a rule which is not is another one on the other side, and no uniform rule across it.
+    /// Whether the uniform rule for targets of the given parity is its own mirror image. Coordinates count
+    /// outwards on both sides of a spoke, so that a rule which is not is another one on the other side, and
+    /// no uniform rule across it.
     pub fn is_mirror_image(&self, to: Lattice) -> bool {
         let scale = self.scale();
         let taps = |x: i32| -> BTreeMap<i32, W> {
@@ -156,16 +159,16 @@ impl<S: Scalar> Line<S> {
         Line::new(vec![vec![(-1, half.clone()), (1, half)]])
     }
 
-    /// Smoothing (1, 2u, 1) / (2 (1+u)) with tension `u`; `u = 1` averages twice. Fang, Ma and Wang, generalised tension
-    /// scheme, even orders.
+    /// Smoothing (1, 2u, 1) / (2 (1+u)) with tension `u`; `u = 1` averages twice. Fang, Ma and Wang,
+    /// generalised tension scheme, even orders.
     pub fn smoothing(u: S) -> Self {
         let (one, two) = (S::one(), S::ratio(2, 1));
         let side = one.clone() / (two * (one.clone() + u.clone()));
         Line::new(vec![vec![(-2, side.clone()), (0, u.clone() / (one + u)), (2, side)]])
     }
 
-    /// Corner cutting (1+2u, 1) / (2 (1+u)) with tension `u` on a face net; `u = 1` is Chaikin's rule. Fang, Ma and Wang,
-    /// generalised tension scheme, order 3.
+    /// Corner cutting (1+2u, 1) / (2 (1+u)) with tension `u` on a face net; `u = 1` is Chaikin's rule. Fang,
+    /// Ma and Wang, generalised tension scheme, order 3.
     pub fn corner_cutting(u: S) -> Self {
         let (one, two) = (S::one(), S::ratio(2, 1));
         let far = one.clone() / (two * (one.clone() + u));
@@ -200,8 +203,8 @@ mod tests {
                 let taps: Vec<(i32, f64)> = line.taps(x).collect();
                 assert!((taps.iter().map(|t| t.1).sum::<f64>() - 1.0).abs() < 1e-15);
                 let mean: f64 = taps.iter().map(|&(source, w)| w * f64::from(source)).sum();
-                // straight lines are reproduced at their own place by all rules but corner cutting off u = 1, which moves
-                // the points of both classes by (1-u)/(1+u) half steps towards each other
+                // straight lines are reproduced at their own place by all rules but corner cutting off u = 1,
+                // which moves the points of both classes by (1-u)/(1+u) half steps towards each other
                 let shift = mean * f64::from(line.scale()) - f64::from(x);
                 let expected = if line == Line::corner_cutting(u) {
                     let towards = if x.div_euclid(2).rem_euclid(2) == 0 { -1.0 } else { 1.0 };

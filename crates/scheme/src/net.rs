@@ -1,16 +1,17 @@
 //! Running passes: what is combined, where it is read, and the one interpreter.
 //!
-//! A pass says how points combine; it does not say what a point is. The interpreter, a [`Plan`] that is made once and run on
-//! nets ([`refine`] does both), runs the passes of a level for any [`Net`]: rows of the local matrix ([`DenseNet`]), rows of a Fourier block ([`FourierNet`]), points of a surface
-//! ([`PointNet`]), or a mere mark (is a special stencil involved?). Local matrix, Fourier blocks and refinement thus come
-//! from the same rules by construction.
+//! A pass says how points combine; it does not say what a point is. The interpreter, a [`Plan`] that is made
+//! once and run on nets ([`refine`] does both), runs the passes of a level for any [`Net`]: rows of the local
+//! matrix ([`DenseNet`]), rows of a Fourier block ([`FourierNet`]), points of a surface ([`PointNet`]), or a
+//! mere mark (is a special stencil involved?). Local matrix, Fourier blocks and refinement thus come from the
+//! same rules by construction.
 
 use crate::{Error, Level, Numbering, Scalar, Site, Table};
 
 /// Where a level reads its control points, and how their values combine.
 ///
-/// On a net with a symmetry only one value per orbit need be stored: [`Net::orbit`] names the stored site, and
-/// [`Net::accumulate`] moves its value to where it is read.
+/// On a net with a symmetry only one value per orbit need be stored: [`Net::orbit`] names the stored site,
+/// and [`Net::accumulate`] moves its value to where it is read.
 pub trait Net<S: Scalar> {
     /// What is attached to a point; an element of a module over the scalars.
     type Value;
@@ -39,10 +40,11 @@ pub fn refine<S: Scalar, N: Net<S>>(level: &Level<S>, net: &N, targets: &[Site])
     Plan::new(level, |site| net.orbit(site), targets)?.run(net)
 }
 
-/// A level made ready to run: which points each pass must make so that the targets can be made, and out of which others.
+/// A level made ready to run: which points each pass must make so that the targets can be made, and out of
+/// which others.
 ///
-/// The plan depends on the rules and on what counts as one orbit, and not on the values: all Fourier blocks of a level share
-/// one.
+/// The plan depends on the rules and on what counts as one orbit, and not on the values: all Fourier blocks
+/// of a level share one.
 #[derive(Clone, Debug)]
 pub struct Plan<S> {
     /// The control points that are read, one of each orbit.
@@ -53,7 +55,8 @@ pub struct Plan<S> {
     targets: Vec<(usize, Site)>,
 }
 
-/// One pass: the table over orbits, and for each term the site that it reads, which says how its orbit's value is moved there.
+/// One pass: the table over orbits, and for each term the site that it reads, which says how its orbit's
+/// value is moved there.
 #[derive(Clone, Debug)]
 struct Pass<S> {
     table: Table<S>,
@@ -136,8 +139,8 @@ impl<S: Scalar> Plan<S> {
     }
 }
 
-/// Control points are unit vectors: a refined point's value is its row of the local matrix, columns in the order of the
-/// numbering.
+/// Control points are unit vectors: a refined point's value is its row of the local matrix, columns in the
+/// order of the numbering.
 #[derive(Clone, Copy, Debug)]
 pub struct DenseNet {
     /// The control points.

@@ -11,7 +11,8 @@ use std::str::FromStr;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Number(BigRational);
 
-/// The longest text that is read as a number: a double written out in full has 767 digits, and nobody writes more.
+/// The longest text that is read as a number: a double written out in full has 767 digits, and nobody writes
+/// more.
 const MAX_LENGTH: usize = 2000;
 
 /// The largest power of ten beside a mantissa: beyond it a number is no double, however long its mantissa is.

@@ -2,8 +2,8 @@
 
 use crate::{Error, Fan, Lattice, Level, Line, Pass, Same, Scalar, Scheme, Site, Stencil};
 
-/// The nine weights of a one-ring scheme around a vertex V with neighbours E_i (edges) and F_i (faces, between E_i and
-/// E_{i+1}):
+/// The nine weights of a one-ring scheme around a vertex V with neighbours E_i (edges) and F_i (faces,
+/// between E_i and E_{i+1}):
 ///
 /// ```text
 /// F_i' = f1 V + f2 (E_i + E_{i+1}) + f3 F_i
@@ -11,8 +11,8 @@ use crate::{Error, Fan, Lattice, Level, Line, Pass, Same, Scalar, Scheme, Site, 
 /// V'   = (1 - alpha - beta) V + alpha/N sum E_i + beta/N sum F_i
 /// ```
 ///
-/// `alpha` and `beta` are **total** weights of the vertex stencil. Affine invariance is `f1 + 2 f2 + f3 = 1` and
-/// `d1 + d2 + 2 e1 + 2 e2 = 1`.
+/// `alpha` and `beta` are **total** weights of the vertex stencil. Affine invariance is `f1 + 2 f2 + f3 = 1`
+/// and `d1 + d2 + 2 e1 + 2 e2 = 1`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs)] // the weights are defined by the rules above
 pub struct OneRing<S> {
@@ -64,8 +64,8 @@ impl<S: Scalar> OneRing<S> {
         ]
     }
 
-    /// The scheme: uniform bicubic refinement with these stencils at V, E_i and F_i. It has dihedral symmetry whatever the weights
-    /// are.
+    /// The scheme: uniform bicubic refinement with these stencils at V, E_i and F_i. It has dihedral symmetry
+    /// whatever the weights are.
     ///
     /// # Errors
     /// [`Error::Valence`] below 3.
@@ -73,7 +73,8 @@ impl<S: Scalar> OneRing<S> {
         Ok(Scheme::stationary(name, self.level_with(valence, |_| true)?))
     }
 
-    /// The level in which only the points that `special` agrees to have these stencils, and all others the regular rules.
+    /// The level in which only the points that `special` agrees to have these stencils, and all others the
+    /// regular rules.
     pub(crate) fn level_with(self, valence: usize, special: impl Fn(Site) -> bool) -> Result<Level<S>, Error> {
         let n = S::ratio(valence.max(1) as i64, 1);
         let own = S::one() - self.alpha.clone() - self.beta.clone();

@@ -3,9 +3,11 @@
 use crate::{Fan, Lattice, Line, Site, Stencil};
 use std::collections::BTreeMap;
 
-/// One linear step from a net to a net: a tensor-product rule at regular points, explicit stencils near the centre.
+/// One linear step from a net to a net: a tensor-product rule at regular points, explicit stencils near the
+/// centre.
 ///
-/// A pass reads a neighbourhood of one step only; wider rules are several passes in a row, run and never multiplied out.
+/// A pass reads a neighbourhood of one step only; wider rules are several passes in a row, run and never
+/// multiplied out.
 #[derive(Clone, Debug)]
 pub struct Pass<W> {
     from: Lattice,
@@ -19,8 +21,8 @@ pub struct Pass<W> {
 enum Lines<W> {
     /// One rule in every sector and in both directions.
     Alike(Line<W>),
-    /// For each spoke i the rules of the sector that begins there: of the coordinate along spoke i, which crosses spoke i+1,
-    /// and of the coordinate along spoke i+1, which crosses spoke i.
+    /// For each spoke i the rules of the sector that begins there: of the coordinate along spoke i, which
+    /// crosses spoke i+1, and of the coordinate along spoke i+1, which crosses spoke i.
     Sectors(Vec<[Line<W>; 2]>),
 }
 
@@ -35,9 +37,10 @@ impl<W: Clone> Pass<W> {
         }
     }
 
-    /// A pass without special points whose rules differ from spoke to spoke: `lines[i]` are those of the sector that begins at
-    /// spoke i, along that spoke (across the next) and along the next (across that spoke). There is one pair for each
-    /// [spoke](Fan::spokes); the last of an open fan belongs to the points of its last spoke.
+    /// A pass without special points whose rules differ from spoke to spoke: `lines[i]` are those of the
+    /// sector that begins at spoke i, along that spoke (across the next) and along the next (across that
+    /// spoke). There is one pair for each [spoke](Fan::spokes); the last of an open fan belongs to the points
+    /// of its last spoke.
     pub fn by_sector(from: Lattice, to: Lattice, lines: Vec<[Line<W>; 2]>) -> Self {
         Pass {
             from,
@@ -47,8 +50,8 @@ impl<W: Clone> Pass<W> {
         }
     }
 
-    /// The same with a stencil at `site`. In a closed fan stencils of sector 0 stand for all sectors unless some pass of the
-    /// level has one in another sector.
+    /// The same with a stencil at `site`. In a closed fan stencils of sector 0 stand for all sectors unless
+    /// some pass of the level has one in another sector.
     pub fn with(mut self, site: Site, stencil: Stencil<W>) -> Self {
         self.special.insert(site, stencil);
         self
@@ -68,7 +71,8 @@ impl<W: Clone> Pass<W> {
     pub fn lines(&self, sector: usize) -> [&Line<W>; 2] {
         match &self.lines {
             Lines::Alike(line) => [line, line],
-            // the centre and the regular points of sectors beyond the list do not exist: Level::new has counted them
+            // the centre and the regular points of sectors beyond the list do not exist: Level::new has
+            // counted them
             Lines::Sectors(lines) => {
                 let [own, next] = &lines[sector];
                 [own, next]
@@ -152,8 +156,8 @@ impl<W: Clone> Pass<W> {
             .flat_map(move |x| ys.clone().into_iter().map(move |y| (x, y)))
     }
 
-    /// Where a regular rule of `site` finds the point `(x, y)` of its sector's plane. A point of a spoke that reads straight
-    /// across the centre has two continuations, which agree only where four sectors meet.
+    /// Where a regular rule of `site` finds the point `(x, y)` of its sector's plane. A point of a spoke that
+    /// reads straight across the centre has two continuations, which agree only where four sectors meet.
     pub(crate) fn source(fan: Fan, site: Site, x: i32, y: i32) -> Option<Site> {
         if site.y == 0 && y == 0 && x < 0 && fan != Fan::Closed(4) {
             return None;

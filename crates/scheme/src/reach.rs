@@ -3,12 +3,12 @@
 use crate::{Error, Lattice, Level, Numbering, Site};
 use std::collections::BTreeSet;
 
-/// Nets beyond this many rings are not looked at: order 32, the largest there is, closes with 15, and special points that a
-/// file may list lie within 32.
+/// Nets beyond this many rings are not looked at: order 32, the largest there is, closes with 15, and special
+/// points that a file may list lie within 32.
 const MAX_RINGS: usize = 128;
 
-/// The most points to look at one by one: looking at so many takes about a second, and a dense matrix of a tenth of them fills
-/// the memory of a large machine. Empirical.
+/// The most points to look at one by one: looking at so many takes about a second, and a dense matrix of a
+/// tenth of them fills the memory of a large machine. Empirical.
 const MAX_POINTS: usize = 300_000;
 
 impl<W: Clone> Level<W> {
@@ -41,9 +41,9 @@ impl<W: Clone> Level<W> {
         Ok(sites.into_iter().filter(|&site| self.orbit(site) == site).collect())
     }
 
-    /// The outermost refined ring that a special stencil takes part in, directly or through the passes after it; `None` without
-    /// special stencils. Rules beyond it are the regular ones. Lines with taps of their own near a spoke are not counted: they
-    /// hold along the whole spoke.
+    /// The outermost refined ring that a special stencil takes part in, directly or through the passes after
+    /// it; `None` without special stencils. Rules beyond it are the regular ones. Lines with taps of their
+    /// own near a spoke are not counted: they hold along the whole spoke.
     ///
     /// # Errors
     /// Those of [`Level::sources`]; [`Error::NetSize`] where sectors differ and rules reach too far.
@@ -67,16 +67,19 @@ impl<W: Clone> Level<W> {
         Ok(marked.iter().map(|site| site.ring()).max())
     }
 
-    /// The smallest number of rings that holds every point with a special rule and whose refinement reads no point outside: the
-    /// smallest net with a square local matrix, which has all eigenvalues that are not those of regular rings alone.
+    /// The smallest number of rings that holds every point with a special rule and whose refinement reads no
+    /// point outside: the smallest net with a square local matrix, which has all eigenvalues that are not
+    /// those of regular rings alone.
     ///
     /// # Errors
     /// Those of [`Level::special_rings`]; [`Error::NotClosed`] if no ring up to 128 closes.
     pub fn closed_rings(&self) -> Result<usize, Error> {
-        // a face net closes with ring 0 at the earliest, a vertex net with ring 1: the centre alone never determines a patch
+        // a face net closes with ring 0 at the earliest, a vertex net with ring 1: the centre alone never
+        // determines a patch
         let first = 1 - self.lattice().parity() as usize;
         let mut rings = self.special_rings()?.unwrap_or(0).max(first);
-        // the outermost ring read grows with the ring made, so that iterating it from below ends at the smallest closed one
+        // the outermost ring read grows with the ring made, so that iterating it from below ends at the
+        // smallest closed one
         while rings <= MAX_RINGS {
             let reach = self.reach(rings)?;
             if reach <= rings {

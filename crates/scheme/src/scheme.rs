@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 
 /// A subdivision scheme around one extraordinary vertex or face.
 ///
-/// A scheme is data, made by the constructor of its family. A non-stationary scheme lists its leading levels; from then on
-/// its limit level holds, the one that governs continuity.
+/// A scheme is data, made by the constructor of its family. A non-stationary scheme lists its leading levels;
+/// from then on its limit level holds, the one that governs continuity.
 #[derive(Clone, Debug)]
 pub struct Scheme<S> {
     name: String,
@@ -16,8 +16,8 @@ pub struct Scheme<S> {
 }
 
 impl<S: Scalar> Scheme<S> {
-    /// A scheme of the given leading levels, the first refinement first, and of its limit level, which has the same fan and
-    /// lattice. The degree of the regular surface is derived from the limit level's lines.
+    /// A scheme of the given leading levels, the first refinement first, and of its limit level, which has
+    /// the same fan and lattice. The degree of the regular surface is derived from the limit level's lines.
     pub fn new(name: impl Into<String>, leading: Vec<Level<S>>, limit: Level<S>) -> Self {
         debug_assert!(
             leading
@@ -46,8 +46,8 @@ impl<S: Scalar> Scheme<S> {
         }
     }
 
-    /// The same scheme with weights of another type. Symmetry and degree are kept: they are facts about the weights, of which
-    /// the images are enclosures or approximations.
+    /// The same scheme with weights of another type. Symmetry and degree are kept: they are facts about the
+    /// weights, of which the images are enclosures or approximations.
     pub fn map<T: Scalar>(&self, mut f: impl FnMut(&S) -> T) -> Scheme<T> {
         Scheme {
             name: self.name.clone(),
@@ -57,7 +57,8 @@ impl<S: Scalar> Scheme<S> {
         }
     }
 
-    /// The mask of the regular rules, at half steps: what the degree was derived from; `None` where directions differ.
+    /// The mask of the regular rules, at half steps: what the degree was derived from; `None` where
+    /// directions differ.
     pub fn regular_mask(&self) -> Option<BTreeMap<i32, S>> {
         self.limit.regular_mask()
     }
@@ -69,9 +70,9 @@ impl<S: Clone> Scheme<S> {
         &self.name
     }
 
-    /// The degree of the regular surface in each direction, 3 for bicubic: that of the uniform B-splines whose mask the
-    /// composed lines of the limit level are. `None` if they are no such mask; the surface then is not made of polynomial
-    /// patches that this library knows.
+    /// The degree of the regular surface in each direction, 3 for bicubic: that of the uniform B-splines
+    /// whose mask the composed lines of the limit level are. `None` if they are no such mask; the surface
+    /// then is not made of polynomial patches that this library knows.
     pub fn degree(&self) -> Option<usize> {
         self.degree
     }

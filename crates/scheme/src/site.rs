@@ -1,9 +1,9 @@
 //! The lattice around an extraordinary vertex or face, and its one numbering.
 //!
-//! N sectors meet in a centre. Sector `i` is the quadrant between spoke `i` and spoke `i+1`; a point of it has coordinates
-//! `(x, y)`, `x` along spoke `i` and `y` along spoke `i+1`, **in half steps**: points of a net around a vertex have even
-//! coordinates (`P_i(a,b)` is `(2a, 2b)`), points of a net around a face have odd ones (`(2a+1, 2b+1)`).
-//! One folding rule then serves both kinds of net:
+//! N sectors meet in a centre. Sector `i` is the quadrant between spoke `i` and spoke `i+1`; a point of it
+//! has coordinates `(x, y)`, `x` along spoke `i` and `y` along spoke `i+1`, **in half steps**: points of a
+//! net around a vertex have even coordinates (`P_i(a,b)` is `(2a, 2b)`), points of a net around a face have
+//! odd ones (`(2a+1, 2b+1)`). One folding rule then serves both kinds of net:
 //!
 //! ```text
 //!            (0,4)---(2,4)---(4,4)         spoke i+1 belongs to sector i+1: (0,4) of sector i
@@ -14,11 +14,12 @@
 //!            centre     spoke i
 //! ```
 //!
-//! Ring `r` of a vertex net is `max(a, b) = r`, the centre being ring 0; R rings hold `1 + N R (R+1)` points. Ring `r` of
-//! a face net is `max(a, b) = r`; rings 0 to R hold `N (R+1)^2` points.
+//! Ring `r` of a vertex net is `max(a, b) = r`, the centre being ring 0; R rings hold `1 + N R (R+1)` points.
+//! Ring `r` of a face net is `max(a, b) = r`; rings 0 to R hold `N (R+1)^2` points.
 //!
-//! Around a centre on a boundary, or on one side of a crease, N sectors form an **open** fan with spokes 0 to N. The last
-//! spoke belongs to no sector of faces; its points have the sector N and `y = 0`, and R rings hold R points more.
+//! Around a centre on a boundary, or on one side of a crease, N sectors form an **open** fan with spokes 0 to
+//! N. The last spoke belongs to no sector of faces; its points have the sector N and `y = 0`, and R rings
+//! hold R points more.
 
 /// How the sectors around a centre are joined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -86,7 +87,8 @@ impl Lattice {
     }
 }
 
-/// A point of the lattice in its canonical sector: the centre, or `x > 0, y >= 0`. Coordinates are half steps.
+/// A point of the lattice in its canonical sector: the centre, or `x > 0, y >= 0`. Coordinates are half
+/// steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Site {
     /// The sector, 0 for the centre.
@@ -101,10 +103,10 @@ impl Site {
     /// The centre of the fan.
     pub const CENTRE: Site = Site { sector: 0, x: 0, y: 0 };
 
-    /// Folds any `(sector, x, y)` into its canonical form. Both rays that bound the quadrant opposite to the sector are
-    /// reached over the spoke next to them: `(x < 0, 0)` is on spoke `i+2`, `(0, y < 0)` on spoke `i-1`. `None` inside that
-    /// quadrant, where the plane of the sector has no unique continuation unless four sectors meet, and outside of an
-    /// open fan.
+    /// Folds any `(sector, x, y)` into its canonical form. Both rays that bound the quadrant opposite to the
+    /// sector are reached over the spoke next to them: `(x < 0, 0)` is on spoke `i+2`, `(0, y < 0)` on spoke
+    /// `i-1`. `None` inside that quadrant, where the plane of the sector has no unique continuation unless
+    /// four sectors meet, and outside of an open fan.
     pub fn new(fan: Fan, sector: i64, x: i32, y: i32) -> Option<Site> {
         debug_assert!(
             (x - y) % 2 == 0,
@@ -152,7 +154,8 @@ impl Site {
         }
     }
 
-    /// The image under the reflection that exchanges spoke `i` with spoke `-i` of a closed fan, `N-i` of an open one.
+    /// The image under the reflection that exchanges spoke `i` with spoke `-i` of a closed fan, `N-i` of an
+    /// open one.
     pub fn mirrored(self, fan: Fan) -> Site {
         if self == Site::CENTRE {
             return self;
@@ -175,9 +178,9 @@ impl Site {
     }
 }
 
-/// The points of a net out to a given ring, in the one order that every matrix and table uses: rings outwards; within a
-/// ring sector by sector; within a sector from spoke `i` (`y = 0` or 1) along the ring towards spoke `i+1`. The matrix of
-/// fewer rings is therefore a leading part of the matrix of more.
+/// The points of a net out to a given ring, in the one order that every matrix and table uses: rings
+/// outwards; within a ring sector by sector; within a sector from spoke `i` (`y = 0` or 1) along the ring
+/// towards spoke `i+1`. The matrix of fewer rings is therefore a leading part of the matrix of more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Numbering {
     /// The sectors.
@@ -260,13 +263,15 @@ impl Numbering {
         )
     }
 
-    /// The position of a site within its own sector's points, centre not counted: its row in a Fourier block with k != 0.
+    /// The position of a site within its own sector's points, centre not counted: its row in a Fourier block
+    /// with k != 0.
     pub fn index_in_sector(self, site: Site) -> Option<usize> {
         (site != Site::CENTRE && site.lattice() == self.lattice && site.ring() <= self.rings)
             .then(|| self.sector_points_before(site.ring()) + Self::along(site))
     }
 
-    /// The sites of one sector, in order, centre not included; of sector N of an open fan those of the last spoke.
+    /// The sites of one sector, in order, centre not included; of sector N of an open fan those of the last
+    /// spoke.
     pub fn sector_sites(self, sector: usize) -> impl Iterator<Item = Site> {
         let parity = self.lattice.parity();
         let spoke_only = sector == self.fan.sectors();

@@ -1,7 +1,8 @@
 //! Schemes by name.
 //!
 //! A spec is a family's name, then parameters: `catmull-clark`, `lambda:lambda=0.5`, `lambda:optimal`,
-//! `tension:order=6,u0=2`. [`registry`] lists the families; every scheme of it is tested, by a test that walks the registry.
+//! `tension:order=6,u0=2`. [`registry`] lists the families; every scheme of it is tested, by a test that
+//! walks the registry.
 
 use crate::families::{catmull_clark, doo_sabin, tension};
 use crate::lambda::{Member, Untabulated};
@@ -112,8 +113,8 @@ impl Spec {
     /// The scheme around a centre of the given valence.
     ///
     /// # Errors
-    /// Those of the family: valence or parameters out of range; those of [`Untabulated::refuse`] for weights that
-    /// would have to be tuned.
+    /// Those of the family: valence or parameters out of range; those of [`Untabulated::refuse`] for weights
+    /// that would have to be tuned.
     pub fn scheme<S: Scalar + Copy>(&self, valence: usize) -> Result<Scheme<S>, Error> {
         match self.member(valence, Untabulated::refuse)? {
             Some(member) => member.scheme(self.to_string()),
@@ -123,8 +124,8 @@ impl Spec {
         }
     }
 
-    /// The member of the lambda-scheme that is named; `None` for another family. `beyond` is asked for what the
-    /// embedded table does not hold: a tuner, or [`Untabulated::refuse`].
+    /// The member of the lambda-scheme that is named; `None` for another family. `beyond` is asked for what
+    /// the embedded table does not hold: a tuner, or [`Untabulated::refuse`].
     ///
     /// # Errors
     /// Those of [`Member::given`], [`Member::at`] and [`Member::optimal`], and those of `beyond`.

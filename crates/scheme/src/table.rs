@@ -2,10 +2,12 @@
 
 use crate::{Error, Level, Scalar, Site};
 
-/// The points that one pass makes, each as a combination of the points before it: a sparse matrix by rows, with 32-bit indices.
+/// The points that one pass makes, each as a combination of the points before it: a sparse matrix by rows,
+/// with 32-bit indices.
 ///
-/// What the points are, sites of a lattice or vertices, edges and faces of a mesh, does not matter here: the [`Plan`](crate::Plan) of
-/// a level around one centre and the refinement of a mesh are the same tables, run on different values.
+/// What the points are, sites of a lattice or vertices, edges and faces of a mesh, does not matter here: the
+/// [`Plan`](crate::Plan) of a level around one centre and the refinement of a mesh are the same tables, run
+/// on different values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table<S> {
     /// Where each row begins among the terms, and where the last one ends.
@@ -105,11 +107,12 @@ pub trait Topology {
 }
 
 impl<S: Scalar> Table<S> {
-    /// The table of pass `pass` of a mesh, of which `level` gives the rules around each centre: one row for each target, a centre and
-    /// the site around it that is made.
+    /// The table of pass `pass` of a mesh, of which `level` gives the rules around each centre: one row for
+    /// each target, a centre and the site around it that is made.
     ///
     /// # Errors
-    /// Those of [`Level::stencil`]; [`Error::BeyondNet`] if the topology has no point where a rule reads; [`Error::TableSize`].
+    /// Those of [`Level::stencil`]; [`Error::BeyondNet`] if the topology has no point where a rule reads;
+    /// [`Error::TableSize`].
     pub fn around<'a, T: Topology>(
         topology: &T,
         pass: usize,

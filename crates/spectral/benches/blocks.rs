@@ -1,4 +1,5 @@
-//! The Fourier blocks of a high order and their eigenvalues: order 22 at N = 20 has 11 blocks of 110 rows (111 in block 0).
+//! The Fourier blocks of a high order and their eigenvalues: order 22 at N = 20 has 11 blocks of 110 rows
+//! (111 in block 0).
 //!
 //! Order 12 has blocks of 30 rows; order 21 is the largest odd one that is tabulated, 11 blocks of 100 rows.
 

@@ -1,12 +1,13 @@
 //! The annulus of patches that generates the surface around the centre.
 //!
-//! Where all rules are regular the surface of degree d is made of tensor-product polynomial patches: the patch of the square
-//! `[p, p+1] x [q, q+1]` of a sector has `(d+1)^2` control points, centred on it. Its images under refinement must be regular
-//! too: the control points of the refined patches have to lie beyond the rings with special stencils. If `sigma` is the
-//! outermost of these rings, that is so for `max(p, q) >= m` with `2m - floor(d/2) > sigma`. The patches with
-//! `m <= max(p, q) < 2m` form the annulus; the rest of the surface consists of its images, scaled by powers of the
-//! eigenvalue. For Catmull-Clark m = 1; where face and edge stencils are special as well (the lambda-scheme) m = 2, and the
-//! annulus has 12 patches a sector with control points in rings 1 to 5.
+//! Where all rules are regular the surface of degree d is made of tensor-product polynomial patches: the
+//! patch of the square `[p, p+1] x [q, q+1]` of a sector has `(d+1)^2` control points, centred on it. Its
+//! images under refinement must be regular too: the control points of the refined patches have to lie beyond
+//! the rings with special stencils. If `sigma` is the outermost of these rings, that is so for `max(p, q) >=
+//! m` with `2m - floor(d/2) > sigma`. The patches with `m <= max(p, q) < 2m` form the annulus; the rest of
+//! the surface consists of its images, scaled by powers of the eigenvalue. For Catmull-Clark m = 1; where
+//! face and edge stencils are special as well (the lambda-scheme) m = 2, and the annulus has 12 patches a
+//! sector with control points in rings 1 to 5.
 
 use crate::Error;
 use eigenring_scheme::{Numbering, Scalar, Scheme, Site};
@@ -38,14 +39,14 @@ impl Annulus {
     /// The innermost regular annulus of a scheme's limit level.
     ///
     /// # Errors
-    /// [`Error::NotSpline`] if the regular rules are not those of a uniform B-spline; [`Error::Scheme`] if the scheme's rules
-    /// cannot be run.
+    /// [`Error::NotSpline`] if the regular rules are not those of a uniform B-spline; [`Error::Scheme`] if
+    /// the scheme's rules cannot be run.
     pub fn new<S: Scalar + Copy>(scheme: &Scheme<S>) -> Result<Self, Error> {
         Annulus::at_least(scheme, 1)
     }
 
-    /// The innermost regular annulus whose inner radius is at least `inner`: any annulus further out generates the surface
-    /// as well, and schemes are compared on the same one.
+    /// The innermost regular annulus whose inner radius is at least `inner`: any annulus further out
+    /// generates the surface as well, and schemes are compared on the same one.
     ///
     /// # Errors
     /// As [`Annulus::new`].
@@ -70,7 +71,8 @@ impl Annulus {
             .filter(move |patch| patch.p.max(patch.q) >= inner)
     }
 
-    /// The indices of a patch's control points in the numbering, `d+1` along the own spoke for each of `d+1` along the next.
+    /// The indices of a patch's control points in the numbering, `d+1` along the own spoke for each of `d+1`
+    /// along the next.
     pub fn control(&self, patch: PatchIndex) -> Vec<usize> {
         let parity = self.numbering.lattice.parity();
         let first = |start: usize| start as i32 - (self.degree / 2) as i32;
@@ -80,14 +82,16 @@ impl Annulus {
         for j in 0..count {
             for i in 0..count {
                 let (x, y) = (2 * (a + i) + parity, 2 * (b + j) + parity);
-                // a patch next to spoke i+1 may reach across sector i+1 to its far spoke: read in that sector's own coordinates
+                // a patch next to spoke i+1 may reach across sector i+1 to its far spoke: read in that
+                // sector's own coordinates
                 let (sector, x, y) = if x < 0 {
                     (patch.sector as i64 + 1, y, -x)
                 } else {
                     (patch.sector as i64, x, y)
                 };
                 let site = Site::new(self.numbering.fan, sector, x, y).and_then(|site| self.numbering.index(site));
-                // m > floor(d/2)/2 keeps one coordinate positive, and the numbering reaches the outer rim by construction
+                // m > floor(d/2)/2 keeps one coordinate positive, and the numbering reaches the outer rim by
+                // construction
                 indices.push(site.expect("control points of the annulus lie on its net"));
             }
         }

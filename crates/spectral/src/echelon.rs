@@ -3,10 +3,11 @@
 use crate::{Eigenspace, Error};
 use eigenring_scheme::Complex;
 
-/// An entry of a unit eigenvector below this is zero in the echelon form. Empirical: vectors are accurate to 1e-12.
+/// An entry of a unit eigenvector below this is zero in the echelon form. Empirical: vectors are accurate to
+/// 1e-12.
 pub(crate) const PIVOT: f64 = 1e-8;
-/// `l . r` of unit vectors below this marks a (nearly) defective eigenvalue: its functional would be known to less than five
-/// digits.
+/// `l . r` of unit vectors below this marks a (nearly) defective eigenvalue: its functional would be known to
+/// less than five digits.
 const DEFECTIVE: f64 = 1e-10;
 
 /// Bases of an eigenspace and of its dual, as unknowns of the block.
@@ -17,8 +18,8 @@ pub(crate) struct Dual {
     pub pivots: Vec<usize>,
 }
 
-/// The echelon form of the right vectors, by elimination with the pivots tried in the given order, and the left vectors dual
-/// to it.
+/// The echelon form of the right vectors, by elimination with the pivots tried in the given order, and the
+/// left vectors dual to it.
 pub(crate) fn dual(space: &Eigenspace, fourier: usize, order: impl Fn(usize) -> usize) -> Result<Dual, Error> {
     let scaled =
         |v: &[Complex<f64>], by: Complex<f64>| -> Vec<Complex<f64>> { v.iter().map(|&x| times(x, by)).collect() };

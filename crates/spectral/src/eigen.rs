@@ -1,16 +1,16 @@
 //! Eigenvalues and eigenspaces of one block: the policy for repeated and defective ones.
 //!
-//! **Values** are computed component by component (see [`components`](crate::components)), each by a QR iteration. Within a
-//! component, values closer than [`EQUAL`] times its norm are taken as one repeated value, represented by their mean: a
-//! defective eigenvalue of index m is scattered by rounding over a circle of radius `eps^(1/m)`, but the mean of the
-//! scattered values keeps full accuracy. Values of different components are computed independently and merged within
-//! [`MERGED`].
+//! **Values** are computed component by component (see [`components`](crate::components)), each by a QR
+//! iteration. Within a component, values closer than [`EQUAL`] times its norm are taken as one repeated
+//! value, represented by their mean: a defective eigenvalue of index m is scattered by rounding over a circle
+//! of radius `eps^(1/m)`, but the mean of the scattered values keeps full accuracy. Values of different
+//! components are computed independently and merged within [`MERGED`].
 //!
-//! **Vectors** span the null spaces of `S - ev` and of its transpose, found by a singular value decomposition, which
-//! is as stable for repeated as for simple values. Its dimension is the geometric multiplicity; below the algebraic one
-//! the eigenvalue is defective. Near a resonance (mu close to the outer rings' 1/8) two eigenvectors become parallel, and left
-//! and right vectors orthogonal: their product is the reciprocal condition number of the eigenvalue, given with each
-//! [`Mode`](crate::Mode).
+//! **Vectors** span the null spaces of `S - ev` and of its transpose, found by a singular value
+//! decomposition, which is as stable for repeated as for simple values. Its dimension is the geometric
+//! multiplicity; below the algebraic one the eigenvalue is defective. Near a resonance (mu close to the outer
+//! rings' 1/8) two eigenvectors become parallel, and left and right vectors orthogonal: their product is the
+//! reciprocal condition number of the eigenvalue, given with each [`Mode`](crate::Mode).
 
 use crate::components::strong_components;
 use crate::{Block, Error};
@@ -18,19 +18,21 @@ use eigenring_scheme::Complex;
 use faer::traits::ComplexField;
 use faer::{Mat, c64};
 
-/// Two eigenvalues of one component are one if they are closer than this times the component's norm. Empirical: the
-/// square root of the rounding unit, 1.5e-8, is the scatter of a double defective eigenvalue of a unit matrix.
+/// Two eigenvalues of one component are one if they are closer than this times the component's norm.
+/// Empirical: the square root of the rounding unit, 1.5e-8, is the scatter of a double defective eigenvalue
+/// of a unit matrix.
 pub const EQUAL: f64 = 1e-7;
 
-/// Eigenvalues of different components are one if they are closer than this times the larger, or than this times the
-/// rounding of the whole: a hundred times the error of a well-conditioned eigenvalue.
+/// Eigenvalues of different components are one if they are closer than this times the larger, or than this
+/// times the rounding of the whole: a hundred times the error of a well-conditioned eigenvalue.
 pub const MERGED: f64 = 1e-12;
 
-/// A singular value of `S - value` below this times the largest, or times the value, is zero. Empirical: rounding leaves 1e-16 to 1e-14, and two eigenvalues that
-/// are told apart by [`EQUAL`] leave more than 1e-9.
+/// A singular value of `S - value` below this times the largest, or times the value, is zero. Empirical:
+/// rounding leaves 1e-16 to 1e-14, and two eigenvalues that are told apart by [`EQUAL`] leave more than 1e-9.
 pub const NULL: f64 = 1e-11;
 
-/// Entries below this times the largest are rounding errors of zeros and carry no dependence: a few rounding units.
+/// Entries below this times the largest are rounding errors of zeros and carry no dependence: a few rounding
+/// units.
 const NEGLIGIBLE: f64 = 1e-15;
 
 /// An eigenvalue of a block with its algebraic multiplicity there.
@@ -42,8 +44,8 @@ pub struct BlockEigenvalue {
     pub multiplicity: usize,
 }
 
-/// The eigenvectors of one eigenvalue of a block, as columns of complex numbers (imaginary parts zero for real blocks and
-/// values). Scaled to unit length; a basis without further meaning if there are several.
+/// The eigenvectors of one eigenvalue of a block, as columns of complex numbers (imaginary parts zero for
+/// real blocks and values). Scaled to unit length; a basis without further meaning if there are several.
 #[derive(Clone, Debug)]
 pub struct Eigenspace {
     /// The eigenvalue.
@@ -85,7 +87,8 @@ impl Block<f64> {
         }
     }
 
-    /// The number of independent eigenvectors of the given eigenvalue: as many as [`Block::eigenspace`] has, without them.
+    /// The number of independent eigenvectors of the given eigenvalue: as many as [`Block::eigenspace`] has,
+    /// without them.
     ///
     /// # Errors
     /// [`Error::Decomposition`] as above.
@@ -96,9 +99,10 @@ impl Block<f64> {
         }
     }
 
-    /// The sizes of the Jordan blocks of an eigenvalue, falling, from the numbers of vectors that the powers of `S - value` map to
-    /// zero: each power adds one for every block that is at least as large. Ranks are judged by [`NULL`], so that an eigenvalue known to
-    /// half its digits, as a defective one is, has its blocks found up to size 2, and larger ones mostly.
+    /// The sizes of the Jordan blocks of an eigenvalue, falling, from the numbers of vectors that the powers
+    /// of `S - value` map to zero: each power adds one for every block that is at least as large. Ranks are
+    /// judged by [`NULL`], so that an eigenvalue known to half its digits, as a defective one is, has its
+    /// blocks found up to size 2, and larger ones mostly.
     ///
     /// # Errors
     /// [`Error::Decomposition`] as above.
@@ -212,8 +216,9 @@ pub(crate) fn order(a: Complex<f64>, b: Complex<f64>) -> std::cmp::Ordering {
         .then(b.1.total_cmp(&a.1))
 }
 
-/// Merges values that are linked by chains of steps up to `radius` into their means. A real matrix's clusters are symmetric
-/// about the real axis or come in conjugate pairs, so that a mean that should be real is: its imaginary part is rounding.
+/// Merges values that are linked by chains of steps up to `radius` into their means. A real matrix's clusters
+/// are symmetric about the real axis or come in conjugate pairs, so that a mean that should be real is: its
+/// imaginary part is rounding.
 fn clusters(values: Vec<Complex<f64>>, radius: f64) -> Vec<BlockEigenvalue> {
     let linked = strong_components(values.len(), |i, j| distance(values[i], values[j]) <= radius);
     linked
@@ -233,8 +238,8 @@ fn clusters(values: Vec<Complex<f64>>, radius: f64) -> Vec<BlockEigenvalue> {
         .collect()
 }
 
-/// How many of the falling singular values of `S - value` are not zero: measured by the largest of them, and by the value,
-/// of which rounding leaves a trace where the block is a multiple of the identity.
+/// How many of the falling singular values of `S - value` are not zero: measured by the largest of them, and
+/// by the value, of which rounding leaves a trace where the block is a multiple of the identity.
 fn rank(singular: &[f64], value: Complex<f64>) -> Result<usize, Error> {
     let largest = singular.first().copied().unwrap_or(0.0);
     if !largest.is_finite() {
@@ -316,7 +321,8 @@ mod tests {
         });
         let block = Block::Real(product(&product(&t, &jordan), &inverse));
         let scattered = block.eigenvalues().unwrap();
-        // index 3 is scattered by eps^(1/3), which is beyond what EQUAL merges: reported as found, never as a wrong vector
+        // index 3 is scattered by eps^(1/3), which is beyond what EQUAL merges: reported as found, never as a
+        // wrong vector
         assert!(scattered.iter().all(|e| distance(e.value, (0.5, 0.0)) < 1e-2));
         let space = block.eigenspace((0.5, 0.0), 0).unwrap();
         assert_eq!((space.right.len(), space.left.len()), (1, 1));
@@ -391,7 +397,8 @@ mod tests {
             values in proptest::collection::vec(-1.0..1.0_f64, 5),
             mix in proptest::collection::vec(-0.3..0.3_f64, 25),
         ) {
-            // S = T D T^-1 with T = I + mix, well conditioned; its inverse by elimination on columns of the identity
+            // S = T D T^-1 with T = I + mix, well conditioned; its inverse by elimination on columns of the
+            // identity
             let t = Matrix::from_fn(5, 5, |i, j| mix[5 * i + j] * 0.5 + f64::from(i == j));
             let rows: Vec<Vec<f64>> = (0..5).map(|j| {
                 let (mut a, mut b) = (t.clone(), vec![0.0; 5]);

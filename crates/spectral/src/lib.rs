@@ -1,9 +1,9 @@
 //! What follows from a scheme: its local matrix, Fourier blocks, eigenstructure, limit stencils and maps.
 //!
-//! A [`LocalSystem`] is the local subdivision matrix of a level, in Fourier blocks where its rules are rotation-symmetric. It
-//! gives the [`Spectrum`], [`Mode`]s with their dual functionals, and limit stencils; [`Maps`] are the characteristic and
-//! second-order maps on the regular [`Annulus`]. Matrices, blocks and patches are generic over the scalar; decompositions are
-//! in `f64`.
+//! A [`LocalSystem`] is the local subdivision matrix of a level, in Fourier blocks where its rules are
+//! rotation-symmetric. It gives the [`Spectrum`], [`Mode`]s with their dual functionals, and limit stencils;
+//! [`Maps`] are the characteristic and second-order maps on the regular [`Annulus`]. Matrices, blocks and
+//! patches are generic over the scalar; decompositions are in `f64`.
 
 mod annulus;
 mod components;

@@ -1,13 +1,14 @@
 //! Natural configuration, characteristic map and second-order maps.
 //!
-//! The mode of the subdominant eigenvalue lambda in Fourier index 1, read as points of the complex plane, is the natural
-//! configuration; the surface of which it is the net is the characteristic map (Reif 1995), determined by its patches on the
-//! [`Annulus`]. The modes of the subsubdominant eigenvalue mu as a third coordinate z make it a second-order map: the cup
-//! (index 0) and two saddles (index 2 and N-2). At N = 3 index 2 is the conjugate of index 1 and mu its second eigenvalue; at
-//! N = 4 both saddles lie in block 2, an edge mode (`E_i = (-1)^i, F_i = 0`) and a face mode.
+//! The mode of the subdominant eigenvalue lambda in Fourier index 1, read as points of the complex plane, is
+//! the natural configuration; the surface of which it is the net is the characteristic map (Reif 1995),
+//! determined by its patches on the [`Annulus`]. The modes of the subsubdominant eigenvalue mu as a third
+//! coordinate z make it a second-order map: the cup (index 0) and two saddles (index 2 and N-2). At N = 3
+//! index 2 is the conjugate of index 1 and mu its second eigenvalue; at N = 4 both saddles lie in block 2, an
+//! edge mode (`E_i = (-1)^i, F_i = 0`) and a face mode.
 //!
-//! All maps here have `E_0 = 1` (the cup too, the face mode `F_0 = 1`): other normalisations are factors. z as a function of
-//! (x, y) has the derivatives of [`Graph`], by the chain rule through the Jacobian.
+//! All maps here have `E_0 = 1` (the cup too, the face mode `F_0 = 1`): other normalisations are factors. z
+//! as a function of (x, y) has the derivatives of [`Graph`], by the chain rule through the Jacobian.
 
 use crate::{Annulus, Error, LocalSystem, Mode, Natural, PatchIndex};
 use eigenring_scheme::Scheme;
@@ -24,11 +25,13 @@ pub struct Maps {
     pub natural: [Vec<f64>; 2],
     /// The eigenvalues of the second-order maps: cup, first and second saddle.
     pub mu: [f64; 3],
-    /// The third coordinates: cup, real part and imaginary part of the saddle mode (N = 4: edge mode, face mode).
+    /// The third coordinates: cup, real part and imaginary part of the saddle mode (N = 4: edge mode, face
+    /// mode).
     pub second_order: [Vec<f64>; 3],
 }
 
-/// A function given over the plane by a parametric surface (x, y, z): its derivatives with respect to x and y.
+/// A function given over the plane by a parametric surface (x, y, z): its derivatives with respect to x and
+/// y.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Graph {
     /// The point below.
@@ -94,8 +97,9 @@ impl Maps {
     /// The maps of the scheme's limit level on an annulus of it.
     ///
     /// # Errors
-    /// [`Error::NotSymmetric`] for rules that differ from sector to sector; [`Error::Multiplicity`] or [`Error::Defective`]
-    /// where an eigenspace is not what the maps need, [`Error::Scaling`] if a block has no second eigenvalue.
+    /// [`Error::NotSymmetric`] for rules that differ from sector to sector; [`Error::Multiplicity`] or
+    /// [`Error::Defective`] where an eigenspace is not what the maps need, [`Error::Scaling`] if a block has
+    /// no second eigenvalue.
     pub fn on(scheme: &Scheme<f64>, annulus: Annulus) -> Result<Self, Error> {
         let system = LocalSystem::new(scheme.limit(), annulus.numbering.rings)?;
         if !system.symmetric() {
@@ -253,7 +257,8 @@ mod tests {
 
     #[test]
     fn maps_are_self_similar() {
-        // the net of a mode refined once is the mode times its eigenvalue: jets of the fine annulus are scaled ones
+        // the net of a mode refined once is the mode times its eigenvalue: jets of the fine annulus are
+        // scaled ones
         let plane = Plane::new(3, 0.5, 1.0).unwrap();
         for scheme in [
             plane.stencil(0.26, 0.33).weights.scheme("lambda", 3).unwrap(),

@@ -1,10 +1,11 @@
 //! The local subdivision matrix and its Fourier blocks: two readings of the same passes.
 //!
-//! With control points in the order of a [`Numbering`] the refined points of the same rings are `P' = S P`; row `i` of S
-//! holds the weights of refined point `i`. For rotation-symmetric rules S is block-circulant, and a net of Fourier index k,
-//! `P_i(x, y) = w^{k i} v(x, y)`, is mapped to one of the same index by the block `S_k` (Ball and Storry 1988). Rows and
-//! columns of `S_k` are the points of sector 0 in numbering order, preceded by the centre if k = 0 and the centre is a point.
-//! For levels with mirror symmetry the unknowns are the real ones of [`FourierNet`] and `S_k` is a real matrix.
+//! With control points in the order of a [`Numbering`] the refined points of the same rings are `P' = S P`;
+//! row `i` of S holds the weights of refined point `i`. For rotation-symmetric rules S is block-circulant,
+//! and a net of Fourier index k, `P_i(x, y) = w^{k i} v(x, y)`, is mapped to one of the same index by the
+//! block `S_k` (Ball and Storry 1988). Rows and columns of `S_k` are the points of sector 0 in numbering
+//! order, preceded by the centre if k = 0 and the centre is a point. For levels with mirror symmetry the
+//! unknowns are the real ones of [`FourierNet`] and `S_k` is a real matrix.
 
 use crate::Error;
 use eigenring_scheme::{Complex, DenseNet, FourierNet, Level, Net, Numbering, Plan, Scalar, Site, refine};
@@ -136,8 +137,8 @@ pub fn fourier_blocks<S: Scalar + Copy>(level: &Level<S>, rings: usize) -> Resul
         .collect()
 }
 
-/// What the Fourier blocks of a level share: the plan by which one point of each orbit is made, from which the rows of all its
-/// unknowns follow.
+/// What the Fourier blocks of a level share: the plan by which one point of each orbit is made, from which
+/// the rows of all its unknowns follow.
 struct Assembly<S> {
     numbering: Numbering,
     mirror: bool,
@@ -192,7 +193,8 @@ mod tests {
         (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
     }
 
-    /// `sum_j M[row of sector 0, column of sector j] w^{k j}`: the block by the discrete Fourier transform of the matrix.
+    /// `sum_j M[row of sector 0, column of sector j] w^{k j}`: the block by the discrete Fourier transform of
+    /// the matrix.
     fn transformed(matrix: &Matrix<f64>, numbering: Numbering, index: usize) -> Matrix<Complex<f64>> {
         let n = numbering.fan.sectors();
         let net = FourierNet::<f64>::new(numbering, index, false).unwrap();

@@ -1,15 +1,18 @@
-//! How many rings an analysis needs: the smallest closed set, or one more where that hides an eigenvalue that matters.
+//! How many rings an analysis needs: the smallest closed set, or one more where that hides an eigenvalue that
+//! matters.
 //!
-//! Refined points of a closed set of R rings read these rings only, so the matrix of more rings is block triangular: its
-//! eigenvalues are those of R rings and those of the diagonal blocks of the rings outside. The latter belong to regular
-//! points. A refined point of ring R + 1 reads ring R + 1 by the outermost tap of the line rule only, times the rule along the
-//! ring; for a rule of outermost tap `e` these are the eigenvalues `e`, `e/2`, `e/4`, .. of the univariate rule, in every
-//! Fourier block (`e = 2^-(k-1)` for uniform B-splines of order k: 1/8 for bicubic ones). Rings further out add zeros.
+//! Refined points of a closed set of R rings read these rings only, so the matrix of more rings is block
+//! triangular: its eigenvalues are those of R rings and those of the diagonal blocks of the rings outside.
+//! The latter belong to regular points. A refined point of ring R + 1 reads ring R + 1 by the outermost tap
+//! of the line rule only, times the rule along the ring; for a rule of outermost tap `e` these are the
+//! eigenvalues `e`, `e/2`, `e/4`, .. of the univariate rule, in every Fourier block (`e = 2^-(k-1)` for
+//! uniform B-splines of order k: 1/8 for bicubic ones). Rings further out add zeros.
 //!
-//! They govern the surface where they are not small: e = 1/4 for biquadratic schemes is as large as the eigenvalues of
-//! the quadratic terms, two of which have no vector on the corners of a regular face alone; and where e is an
-//! eigenvalue of the inner rings already, one ring more shows whether the common one is defective. The rule: **one ring more is
-//! taken unless all eigenvalues outside are strictly below the subsubdominant one**, and so on until none is left.
+//! They govern the surface where they are not small: e = 1/4 for biquadratic schemes is as large as the
+//! eigenvalues of the quadratic terms, two of which have no vector on the corners of a regular face alone;
+//! and where e is an eigenvalue of the inner rings already, one ring more shows whether the common one is
+//! defective. The rule: **one ring more is taken unless all eigenvalues outside are strictly below the
+//! subsubdominant one**, and so on until none is left.
 
 use crate::eigen::modulus;
 use crate::{Block, Error, LocalSystem, Matrix, fourier_blocks, local_matrix, numbering};
@@ -89,7 +92,8 @@ mod tests {
     use super::*;
     use eigenring_scheme::families::{catmull_clark, doo_sabin, tension};
 
-    /// The outermost tap of order k at tension u is that of corner cutting, `1/(2(1+u))`, halved by each of k-3 averages.
+    /// The outermost tap of order k at tension u is that of corner cutting, `1/(2(1+u))`, halved by each of
+    /// k-3 averages.
     #[test]
     fn outer_rings_have_the_outermost_tap() {
         for valence in [3, 4, 5, 8] {

@@ -9,13 +9,13 @@ use eigenring_scheme::Complex;
 pub struct Eigenvalue {
     /// The value as (real, imaginary).
     pub value: Complex<f64>,
-    /// The Fourier index `k <= N/2`; blocks k and N-k have conjugate spectra and are listed once. `None` for rules that differ
-    /// from sector to sector.
+    /// The Fourier index `k <= N/2`; blocks k and N-k have conjugate spectra and are listed once. `None` for
+    /// rules that differ from sector to sector.
     pub fourier: Option<usize>,
     /// The algebraic multiplicity in the whole local matrix: both blocks counted.
     pub multiplicity: usize,
-    /// The number of independent eigenvectors in the whole local matrix; below the multiplicity if defective. `None` where
-    /// it was not asked for.
+    /// The number of independent eigenvectors in the whole local matrix; below the multiplicity if defective.
+    /// `None` where it was not asked for.
     pub geometric: Option<usize>,
 }
 
@@ -37,12 +37,12 @@ impl Eigenvalue {
     }
 }
 
-/// Eigenvalues of different blocks closer than this, relatively, are the same: they come from independent computations whose
-/// errors are some rounding units times a moderate condition number.
+/// Eigenvalues of different blocks closer than this, relatively, are the same: they come from independent
+/// computations whose errors are some rounding units times a moderate condition number.
 const SAME: f64 = 1e-9;
 
-/// The eigenvalues by falling modulus. Equal values of different Fourier indices are listed one by one, the smaller index
-/// first.
+/// The eigenvalues by falling modulus. Equal values of different Fourier indices are listed one by one, the
+/// smaller index first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum {
     /// The eigenvalues.
@@ -61,8 +61,8 @@ impl LocalSystem {
         })
     }
 
-    /// All eigenvalues with their algebraic multiplicities alone: several times as fast as [`LocalSystem::spectrum`] where
-    /// many are repeated.
+    /// All eigenvalues with their algebraic multiplicities alone: several times as fast as
+    /// [`LocalSystem::spectrum`] where many are repeated.
     ///
     /// # Errors
     /// [`Error::Decomposition`] if an entry is not finite or an iteration fails.
@@ -120,7 +120,8 @@ impl Spectrum {
             .find(|e| e.modulus() < subdominant.modulus() * (1.0 - SAME))
     }
 
-    /// `mu / lambda^2`: 1 for bounded curvature without a flat spot. Moduli are taken; `None` where lambda is 0.
+    /// `mu / lambda^2`: 1 for bounded curvature without a flat spot. Moduli are taken; `None` where lambda is
+    /// 0.
     pub fn curvature_ratio(&self) -> Option<f64> {
         let lambda = self.subdominant()?.modulus();
         (lambda > 0.0).then(|| self.subsubdominant().map_or(0.0, |mu| mu.modulus() / (lambda * lambda)))

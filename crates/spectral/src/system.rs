@@ -1,9 +1,10 @@
 //! The local system of a scheme: one matrix, its blocks, its modes.
 //!
-//! A [`Mode`] is an eigenvector of a Fourier block spread over all sectors, `P_i(x, y) = w^{k i} v(x, y)`, complex for
-//! `0 < k < N/2`. Modes of one eigenvalue are given in reduced echelon form: the first point of ring 1 (`E_0`, or the
-//! corner of the face) has value 1 in the first mode and 0 in the others, and so on along the numbering, the centre last.
-//! The functionals of an eigenspace are the left eigenvectors dual to its modes, `l_i . r_j = delta_ij`.
+//! A [`Mode`] is an eigenvector of a Fourier block spread over all sectors, `P_i(x, y) = w^{k i} v(x, y)`,
+//! complex for `0 < k < N/2`. Modes of one eigenvalue are given in reduced echelon form: the first point of
+//! ring 1 (`E_0`, or the corner of the face) has value 1 in the first mode and 0 in the others, and so on
+//! along the numbering, the centre last. The functionals of an eigenspace are the left eigenvectors dual to
+//! its modes, `l_i . r_j = delta_ij`.
 
 use crate::echelon::{Dual, PIVOT, dual, length, reciprocal, times};
 use crate::{Block, Eigenvalue, Error, Matrix, Spectrum, fourier_blocks, local_matrix, numbering};
@@ -29,13 +30,14 @@ pub struct Mode {
     pub values: Vec<Complex<f64>>,
     /// The dual left eigenvector: weights of the points, in the same order.
     pub functional: Vec<Complex<f64>>,
-    /// `|l . r|` for vectors of unit length in the unknowns of the block, between 0 and 1: the reciprocal condition number of the eigenvalue. Perturbing the matrix by
-    /// `eps` moves the eigenvalue by up to `eps` over this, and near a resonance it falls with the distance of the two
-    /// eigenvalues.
+    /// `|l . r|` for vectors of unit length in the unknowns of the block, between 0 and 1: the reciprocal
+    /// condition number of the eigenvalue. Perturbing the matrix by `eps` moves the eigenvalue by up to `eps`
+    /// over this, and near a resonance it falls with the distance of the two eigenvalues.
     pub product: f64,
 }
 
-/// Rows of a local matrix of affine rules sum to 1 up to this: N + 1 roundings of weights below 1, with room to spare.
+/// Rows of a local matrix of affine rules sum to 1 up to this: N + 1 roundings of weights below 1, with room
+/// to spare.
 const ROW_SUM: f64 = 1e-9;
 
 impl LocalSystem {
@@ -72,12 +74,13 @@ impl LocalSystem {
         })
     }
 
-    /// The system of a given local matrix, which must be block-circulant in the order of the [`Numbering`]. The number of
-    /// rings and the kind of net follow from the size and the valence.
+    /// The system of a given local matrix, which must be block-circulant in the order of the [`Numbering`].
+    /// The number of rings and the kind of net follow from the size and the valence.
     ///
     /// # Errors
-    /// [`Error::MatrixSize`] or [`Error::NotCirculant`] (entries of corresponding places differ by more than `tolerance`
-    /// times the largest entry), [`Error::Scheme`] for a valence below 3, [`Error::Decomposition`] if an entry is not finite.
+    /// [`Error::MatrixSize`] or [`Error::NotCirculant`] (entries of corresponding places differ by more than
+    /// `tolerance` times the largest entry), [`Error::Scheme`] for a valence below 3,
+    /// [`Error::Decomposition`] if an entry is not finite.
     pub fn from_matrix(matrix: &Matrix<f64>, valence: usize, tolerance: f64) -> Result<Self, Error> {
         if valence < 3 {
             return Err(eigenring_scheme::Error::Valence { valence }.into());
@@ -231,7 +234,8 @@ impl LocalSystem {
         let (rows, sites) = (net.rows(), self.numbering.sites());
         let mut modes = Vec::with_capacity(right.len());
         for ((unknowns, coefficients), pivot) in right.iter().zip(&left).zip(pivots) {
-            // the unknowns of points off the spokes carry a phase: turn the mode so that the value at the pivot is 1
+            // the unknowns of points off the spokes carry a phase: turn the mode so that the value at the
+            // pivot is 1
             let at_pivot = net.mode(unknowns, rows[pivot])?;
             let turned = at_pivot.0.hypot(at_pivot.1) > PIVOT;
             let (forth, back) = if turned {
@@ -252,7 +256,8 @@ impl LocalSystem {
         Ok(modes)
     }
 
-    /// The weights of the points in the limit position of the centre: the left eigenvector of the eigenvalue 1, sum 1.
+    /// The weights of the points in the limit position of the centre: the left eigenvector of the eigenvalue
+    /// 1, sum 1.
     ///
     /// # Errors
     /// [`Error::RowSums`] unless rows sum to 1, [`Error::Multiplicity`] unless 1 is a simple eigenvalue.
@@ -275,8 +280,9 @@ impl LocalSystem {
         Ok(mode.functional.iter().map(|w| w.0).collect())
     }
 
-    /// The weights of the points in the two limit tangents: the left eigenvectors of the subdominant eigenvalue `lambda`
-    /// dual to its real eigenvectors x and y, the coordinates of the natural configuration (`E_0 = (1, 0)`).
+    /// The weights of the points in the two limit tangents: the left eigenvectors of the subdominant
+    /// eigenvalue `lambda` dual to its real eigenvectors x and y, the coordinates of the natural
+    /// configuration (`E_0 = (1, 0)`).
     ///
     /// # Errors
     /// [`Error::Multiplicity`] unless the eigenspace in block 1 has dimension one.
@@ -288,12 +294,14 @@ impl LocalSystem {
         ])
     }
 
-    /// The functionals of the pair of eigenvalues after the dominant one, of a system without Fourier blocks: left eigenvectors dual to
-    /// the right ones of a double eigenvalue, or of two different real ones, the larger first. Each is scaled so that its
-    /// right eigenvector has the value 1 at the first point where it does not vanish.
+    /// The functionals of the pair of eigenvalues after the dominant one, of a system without Fourier blocks:
+    /// left eigenvectors dual to the right ones of a double eigenvalue, or of two different real ones, the
+    /// larger first. Each is scaled so that its right eigenvector has the value 1 at the first point where it
+    /// does not vanish.
     ///
     /// # Errors
-    /// [`Error::Pair`] unless the two are real, have two eigenvectors and are larger in modulus than all others.
+    /// [`Error::Pair`] unless the two are real, have two eigenvectors and are larger in modulus than all
+    /// others.
     pub fn pair_functionals(&self, spectrum: &Spectrum) -> Result<[Vec<f64>; 2], Error> {
         let others = spectrum.eigenvalues.get(1..).unwrap_or_default();
         let refuse = |found: &Eigenvalue| Error::Pair {
@@ -432,7 +440,8 @@ mod tests {
 
     #[test]
     fn a_resonance_with_the_outer_ring_is_reported_as_defective() {
-        // Doo-Sabin's 1/4 of block 2 is also the outer ring's largest eigenvalue; the ring is coupled to the corners
+        // Doo-Sabin's 1/4 of block 2 is also the outer ring's largest eigenvalue; the ring is coupled to the
+        // corners
         let scheme = doo_sabin::<f64>(5).unwrap();
         let system = LocalSystem::new(scheme.limit(), 1).unwrap();
         let eigenvalues = system.blocks()[2].eigenvalues().unwrap();

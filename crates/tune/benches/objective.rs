@@ -1,7 +1,8 @@
 //! One objective value with its exact gradient, one value alone, and the table they read.
 //!
-//! N = 6 has 3 classes of sectors, N = 20 has 5, N = 19 (the worst up to 20) has 19; each class costs two square roots and
-//! one division per saddle and point. The time does not depend on where in (f2, f3) it is taken.
+//! N = 6 has 3 classes of sectors, N = 20 has 5, N = 19 (the worst up to 20) has 19; each class costs two
+//! square roots and one division per saddle and point. The time does not depend on where in (f2, f3) it is
+//! taken.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use eigenring_scheme::lambda::Plane;

@@ -1,9 +1,10 @@
 //! Do descents from the grid's minima find what descents from all 100 starts find?
 //!
-//! `cargo run --release -p eigenring-tune --example agreement [first valence] [last valence]` searches all 100 sample lambdas of each
-//! valence (3 to 20 by default) both ways, and prints one row per valence: the largest relative excess of the default search over the
-//! full one with its lambda, the largest KKT residual of the lowest optima, the most distinct minima at one lambda, then means per
-//! lambda: milliseconds, descents, evaluations of value and gradient in each descent, and milliseconds of the full search.
+//! `cargo run --release -p eigenring-tune --example agreement [first valence] [last valence]` searches all
+//! 100 sample lambdas of each valence (3 to 20 by default) both ways, and prints one row per valence: the
+//! largest relative excess of the default search over the full one with its lambda, the largest KKT residual
+//! of the lowest optima, the most distinct minima at one lambda, then means per lambda: milliseconds,
+//! descents, evaluations of value and gradient in each descent, and milliseconds of the full search.
 
 use eigenring_tune::search::Starts;
 use eigenring_tune::sweep::{Error, Options, Problem, sample_lambdas};

@@ -1,19 +1,22 @@
 //! The globally optimal lambda of a valence.
 //!
-//! `lambda_C*` minimises `m(lambda) = min E(f2, f3)` (Ma, Wang and Ma 2023, section 4.2). m is continuous, with kinks where s
-//! has them, so a valence can have several local minima (N = 12: one on each side of the ramp of s). They are found in three steps.
+//! `lambda_C*` minimises `m(lambda) = min E(f2, f3)` (Ma, Wang and Ma 2023, section 4.2). m is continuous,
+//! with kinks where s has them, so a valence can have several local minima (N = 12: one on each side of the
+//! ramp of s). They are found in three steps.
 //!
-//! 1. **Scan.** Samples, and the kinks of s as additional nodes. A node that is not above its neighbours brackets a minimum; a kink
-//!    does so on each side on which its neighbour is not lower. So no bracket has a kink inside.
-//! 2. **Brent's method** in each bracket, on the lowest of the minima continued from the bracket's nodes. m is flat at
-//!    its minimum, which leaves lambda with about half of the digits.
-//! 3. **Newton's method** on m' = 0, with m' and m'' by differences of fourth order on five points. With a step h = 2e-4,
-//!    truncation is about h^4 and rounding about `eps m / h`; together they leave an error of lambda near 1e-11 as m'' is
-//!    10 to 1000 times m. (Observed: the last correction is below 1e-10.) Where a kink is nearer than the differences reach, h
-//!    shrinks with its distance.
+//! 1. **Scan.** Samples, and the kinks of s as additional nodes. A node that is not above its neighbours
+//!    brackets a minimum; a kink does so on each side on which its neighbour is not lower. So no bracket has
+//!    a kink inside.
+//! 2. **Brent's method** in each bracket, on the lowest of the minima continued from the bracket's nodes. m
+//!    is flat at its minimum, which leaves lambda with about half of the digits.
+//! 3. **Newton's method** on m' = 0, with m' and m'' by differences of fourth order on five points. With a
+//!    step h = 2e-4, truncation is about h^4 and rounding about `eps m / h`; together they leave an error of
+//!    lambda near 1e-11 as m'' is 10 to 1000 times m. (Observed: the last correction is below 1e-10.) Where a
+//!    kink is nearer than the differences reach, h shrinks with its distance.
 //!
-//! A node may be a minimum itself: a kink of s, or an end of the range. At N = 4 the minimum is known, and a candidate like others:
-//! lambda = 1/2, f2 = f3 = 1/4 are bicubic B-splines, where E vanishes; it is taken since its E is the lowest.
+//! A node may be a minimum itself: a kink of s, or an end of the range. At N = 4 the minimum is known, and a
+//! candidate like others: lambda = 1/2, f2 = f3 = 1/4 are bicubic B-splines, where E vanishes; it is taken
+//! since its E is the lowest.
 
 use crate::search::Optimum;
 use crate::sweep::{Error, Minimum, Options, Problem, Sample, check, sample};
@@ -83,11 +86,12 @@ const CONVERGED: f64 = 1e-11;
 /// Iterations of Brent's method at most; about 20 are usual.
 const BRENT: u64 = 60;
 
-/// The minima over lambda in the range of the samples, which ascend in lambda and were computed with the same options.
+/// The minima over lambda in the range of the samples, which ascend in lambda and were computed with the same
+/// options.
 ///
 /// # Errors
-/// [`Error::TooFew`] for less than three samples, [`Error::Samples`] for samples that do not belong together, and any
-/// [`Error`] about a single lambda.
+/// [`Error::TooFew`] for less than three samples, [`Error::Samples`] for samples that do not belong together,
+/// and any [`Error`] about a single lambda.
 pub fn global(samples: &[Sample], options: &Options) -> Result<Global, Error> {
     check(samples)?;
     let [first, .., last] = samples else {
@@ -240,8 +244,8 @@ impl Envelope<'_> {
         Ok((problem, lowest))
     }
 
-    /// The minimum inside a bracket without kinks, of which the node in it or at its end has the lowest value; `None` if there is
-    /// none but the bracket's end.
+    /// The minimum inside a bracket without kinks, of which the node in it or at its end has the lowest
+    /// value; `None` if there is none but the bracket's end.
     fn bracket(&self, ends: [&Sample; 2], node: &Sample) -> Result<Option<LambdaMinimum>, Error> {
         let lowest = |sample: &Sample| [sample.minima[0].f2, sample.minima[0].f3];
         let (seeds, bracket) = (

@@ -1,13 +1,14 @@
 //! The objective's quantities for any scheme, without its short cuts.
 //!
-//! [`Objective`](crate::objective::Objective) knows the lambda-scheme and is fast; [`Quality`] takes any primal scheme's maps
-//! patch by patch, so that other schemes (Catmull-Clark, user schemes) can be compared with tuned ones, and the two check
-//! each other. The three second-order maps may have eigenvalues `mu_i` of their own; each part of E is then formed with its own
-//! `s_i = mu_i / lambda^2`. On ring m of the geometric series the Hessian is `s_i^m H` and the area `lambda^(2m)`, so a part
-//! exists only while `lambda s_i < 1` (the second derivatives are square integrable).
+//! [`Objective`](crate::objective::Objective) knows the lambda-scheme and is fast; [`Quality`] takes any
+//! primal scheme's maps patch by patch, so that other schemes (Catmull-Clark, user schemes) can be compared
+//! with tuned ones, and the two check each other. The three second-order maps may have eigenvalues `mu_i` of
+//! their own; each part of E is then formed with its own `s_i = mu_i / lambda^2`. On ring m of the geometric
+//! series the Hessian is `s_i^m H` and the area `lambda^(2m)`, so a part exists only while `lambda s_i < 1`
+//! (the second derivatives are square integrable).
 //!
-//! All schemes are measured on the annulus `[2, 4]` and normalised by unit Euclidean norm over the rings that carry it
-//! (five rings for bicubic ones), as in the tuning.
+//! All schemes are measured on the annulus `[2, 4]` and normalised by unit Euclidean norm over the rings that
+//! carry it (five rings for bicubic ones), as in the tuning.
 
 use eigenring_scheme::{Lattice, Scheme, Site};
 use eigenring_spectral::{Annulus, Error, Graph, Maps};

@@ -1,13 +1,14 @@
 //! Stencils tuned at many lambdas, and the branch through them.
 //!
-//! Ma, Wang and Ma (2023, section 4.1) tune at 100 values of lambda a valence, in two uniform parts that meet at `lambda_l`
-//! ([`Range`]). Work comes in two phases.
+//! Ma, Wang and Ma (2023, section 4.1) tune at 100 values of lambda a valence, in two uniform parts that meet
+//! at `lambda_l` ([`Range`]). Work comes in two phases.
 //!
-//! 1. [`sample`] finds all local minima at one lambda. It depends on nothing else, so samples can be computed in any order, in parallel,
-//!    and stored.
-//! 2. [`branch()`] connects them. The lowest minimum may jump from one lambda to the next (at N = 3 between two basins near
-//!    0.446 and 0.656), and no continuous spline can follow it; the branch starts at the global optimum over lambda
-//!    ([`global`](crate::global)) and follows that local minimum continuously in both directions.
+//! 1. [`sample`] finds all local minima at one lambda. It depends on nothing else, so samples can be computed
+//!    in any order, in parallel, and stored.
+//! 2. [`branch()`] connects them. The lowest minimum may jump from one lambda to the next (at N = 3 between
+//!    two basins near 0.446 and 0.656), and no continuous spline can follow it; the branch starts at the
+//!    global optimum over lambda ([`global`](crate::global)) and follows that local minimum continuously in
+//!    both directions.
 
 mod branch;
 mod error;
@@ -28,8 +29,9 @@ use serde::{Deserialize, Serialize};
 pub struct Options {
     /// The bound on the last block's eigenvalues.
     pub bounds: Bounds,
-    /// The relative margin kappa of the eigenvalue bounds. At many lambda the optimum lies on such a bound, where bounded curvature is
-    /// not strict; the default 2e-6 keeps it strict and leaves half of the margin to the splines fitted later.
+    /// The relative margin kappa of the eigenvalue bounds. At many lambda the optimum lies on such a bound,
+    /// where bounded curvature is not strict; the default 2e-6 keeps it strict and leaves half of the margin
+    /// to the splines fitted later.
     pub margin: f64,
     /// The ratio `alpha / beta`.
     pub phi: f64,
@@ -202,7 +204,8 @@ pub struct Range {
 }
 
 impl Default for Range {
-    /// The paper's 100 samples of [0.15, 0.9]; that there are 49 steps below and 50 above follows from its tabulated knots.
+    /// The paper's 100 samples of [0.15, 0.9]; that there are 49 steps below and 50 above follows from its
+    /// tabulated knots.
     fn default() -> Self {
         Range {
             start: 0.15,
@@ -214,8 +217,9 @@ impl Default for Range {
 }
 
 impl Range {
-    /// The sample values, ascending: `start + i (lambda_l-start)/below` for i = 0..=below, then `lambda_l + i (end-lambda_l)/above`
-    /// for i = 1..=above. If `lambda_l` is not inside, as for N > 23 with the default range, as many in equal steps.
+    /// The sample values, ascending: `start + i (lambda_l-start)/below` for i = 0..=below, then `lambda_l + i
+    /// (end-lambda_l)/above` for i = 1..=above. If `lambda_l` is not inside, as for N > 23 with the default
+    /// range, as many in equal steps.
     ///
     /// # Errors
     /// [`Error::Range`], and [`Error::Scheme`] for a valence below 3.

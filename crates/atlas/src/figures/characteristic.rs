@@ -1,8 +1,9 @@
 //! Characteristic maps: their patches with the Jacobian determinant as colour.
 //!
-//! The map is regular where the Jacobian is positive; a scheme is C1 at the centre if the map is regular and injective (Reif 1995). Annuli of patches
-//! shrink by lambda, and the Jacobian changes by `4 lambda^2` from one to the next, so that it fades or grows toward the
-//! centre unless lambda = 1/2. The sheets (see `sheet`) say how values are scaled. Rows are schemes, columns valences.
+//! The map is regular where the Jacobian is positive; a scheme is C1 at the centre if the map is regular and
+//! injective (Reif 1995). Annuli of patches shrink by lambda, and the Jacobian changes by `4 lambda^2` from
+//! one to the next, so that it fades or grows toward the centre unless lambda = 1/2. The sheets (see `sheet`)
+//! say how values are scaled. Rows are schemes, columns valences.
 
 use super::grid::{Grid, NARROWEST};
 use super::sheet::{Point, Sheet, common_inner};
@@ -37,8 +38,8 @@ const THINNEST: f64 = 0.016;
 /// Steps of the tables along the edge of a patch.
 const STEPS: usize = 4;
 
-/// Cells along the edge of a patch for a figure of so many patches in the outer annuli. The annuli inside them
-/// add a third, and more where cells cannot become fewer.
+/// Cells along the edge of a patch for a figure of so many patches in the outer annuli. The annuli inside
+/// them add a third, and more where cells cannot become fewer.
 pub fn resolution(patches: usize, cells: f64) -> usize {
     let wanted = (0.7 * cells / patches as f64).sqrt();
     let allowed = [16, 12, 8, 6, 4];
@@ -89,8 +90,8 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
     }])
 }
 
-/// Points of sector 0 of the outer annulus, by the parameters u along its own and v along the next spoke; other sectors follow by rotation,
-/// other annuli by the factors.
+/// Points of sector 0 of the outer annulus, by the parameters u along its own and v along the next spoke;
+/// other sectors follow by rotation, other annuli by the factors.
 fn push(table: &mut Table, subject: &Subject, sheet: &Sheet) {
     for (u, v, point) in sheet.sector_points() {
         table.push(vec![

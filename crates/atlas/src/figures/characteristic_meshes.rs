@@ -1,7 +1,8 @@
 //! Characteristic meshes of the generalised tension scheme (Fang, Ma and Wang, Fig. 10).
 //!
-//! The eigenvectors of the subdominant pair as points in the plane, on the smallest closed ring set of each order, at the refinement with `u_1` of a
-//! small initial tension, where the scheme is farthest from its limit. Valences stand in columns, orders in rows.
+//! The eigenvectors of the subdominant pair as points in the plane, on the smallest closed ring set of each
+//! order, at the refinement with `u_1` of a small initial tension, where the scheme is farthest from its
+//! limit. Valences stand in columns, orders in rows.
 
 use super::grid::Grid;
 use super::nets::Net;

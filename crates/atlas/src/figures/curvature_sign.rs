@@ -1,7 +1,8 @@
 //! Sign changes of the Gauss curvature, with and without the weight: Ma, Wang and Ma (2023), Fig. 13.
 //!
-//! K_m (Eq. 33) adds up how far the Gauss curvatures of the three second-order maps reach to the wrong side of zero. The paper compares its scheme with that of
-//! Ma and Ma (2019), which minimises the unweighted objective; here both are tuned at the same lambda in the same domain.
+//! K_m (Eq. 33) adds up how far the Gauss curvatures of the three second-order maps reach to the wrong side
+//! of zero. The paper compares its scheme with that of Ma and Ma (2019), which minimises the unweighted
+//! objective; here both are tuned at the same lambda in the same domain.
 
 use super::{Drawing, Entry, Inputs};
 use crate::error::Error;

@@ -1,7 +1,8 @@
 //! The feasible weights (f2, f3) at one lambda, with the objective as colour and its minima.
 //!
-//! The domain is cut into strips along f3 between which its bounds change, each strip into cells between the bounds (see `Domain::strips`), so that cells end
-//! where the domain does. At N = 4, where f3 is mu, the objective is drawn against f2.
+//! The domain is cut into strips along f3 between which its bounds change, each strip into cells between the
+//! bounds (see `Domain::strips`), so that cells end where the domain does. At N = 4, where f3 is mu, the
+//! objective is drawn against f2.
 
 use super::grid::Grid;
 use super::{Drawing, Entry, Inputs};

@@ -1,6 +1,7 @@
 //! Featured lambdas against the valence: Ma, Wang and Ma (2023), Fig. 3.
 //!
-//! Surfaces are C1 for lambda above 1/8, the outer rings' eigenvalue, and have bounded curvature from lambda_l on.
+//! Surfaces are C1 for lambda above 1/8, the outer rings' eigenvalue, and have bounded curvature from
+//! lambda_l on.
 
 use super::{Drawing, Entry, Inputs};
 use crate::error::Error;

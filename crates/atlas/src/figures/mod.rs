@@ -1,9 +1,11 @@
 //! The figures, one module each.
 //!
-//! To add one: a module with an `ENTRY`, listed in [`FIGURES`]; the tests here and `eigenring plot --all` then cover it.
+//! To add one: a module with an `ENTRY`, listed in [`FIGURES`]; the tests here and `eigenring plot --all`
+//! then cover it.
 //!
-//! A figure is a registered [`Entry`]: a name, what it shows, what it takes, and a function from [`Inputs`] to [`Drawing`]s. Drawings are pure functions of
-//! their inputs; the command writes them. Each drawing comes with the tables of the numbers it shows, which are what tests compare.
+//! A figure is a registered [`Entry`]: a name, what it shows, what it takes, and a function from [`Inputs`]
+//! to [`Drawing`]s. Drawings are pure functions of their inputs; the command writes them. Each drawing comes
+//! with the tables of the numbers it shows, which are what tests compare.
 
 mod certificates;
 mod characteristic;
@@ -85,7 +87,8 @@ pub struct Entry {
     pub valences: &'static [usize],
     /// The default lambdas; empty if it takes none.
     pub lambdas: &'static [f64],
-    /// The default schemes; `None` if it takes none, empty for its own choice. Lambdas then stand for members of the lambda-scheme.
+    /// The default schemes; `None` if it takes none, empty for its own choice. Lambdas then stand for members
+    /// of the lambda-scheme.
     pub schemes: Option<&'static [&'static str]>,
     /// The default range of the colour scale, if there is one.
     pub colours: Option<(f64, f64)>,

@@ -1,7 +1,8 @@
 //! Natural configurations: the control nets of characteristic maps (Ma, Wang and Ma 2023, Fig. 10).
 //!
-//! Valences stand in columns; the rows are schemes, or lambdas in ascending order. All nets have the same number of rings and are drawn to
-//! the same size, so that pictures show how points crowd toward the centre (small lambda) or away from it.
+//! Valences stand in columns; the rows are schemes, or lambdas in ascending order. All nets have the same
+//! number of rings and are drawn to the same size, so that pictures show how points crowd toward the centre
+//! (small lambda) or away from it.
 
 use super::grid::Grid;
 use super::nets::Net;

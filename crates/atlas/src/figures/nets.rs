@@ -6,7 +6,8 @@ use eigenring_figure::{Chart, Colour, LINE, Marker, Stroke, Style};
 use eigenring_scheme::{Level, Scheme, Site};
 use eigenring_spectral::{LocalSystem, Natural};
 
-/// The inner rings of a natural configuration, its first point (1, 0) turned so that a sector's bisector points up.
+/// The inner rings of a natural configuration, its first point (1, 0) turned so that a sector's bisector
+/// points up.
 #[derive(Clone, Debug)]
 pub struct Net {
     /// The subdominant eigenvalue.

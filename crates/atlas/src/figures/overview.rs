@@ -1,7 +1,7 @@
 //! The family at a glance: Ma, Wang and Ma (2023), Fig. 1.
 //!
-//! For one valence the splines of f2 and f3 with the tuned samples and the featured lambdas; these against the valence; and three natural
-//! configurations, each drawn to the same size.
+//! For one valence the splines of f2 and f3 with the tuned samples and the featured lambdas; these against
+//! the valence; and three natural configurations, each drawn to the same size.
 
 use super::nets::Net;
 use super::{Drawing, Entry, Inputs, feasible_region, sweep};

@@ -1,7 +1,7 @@
 //! Samples and splines of one valence: Ma, Wang and Ma (2023), Fig. 6.
 //!
-//! The objective and the weights of the tuned samples (the paper's superscript #) beside those of the splines. Where the paper
-//! draws the curve (f2, f3, E) in space, the angle theta has a panel of its own.
+//! The objective and the weights of the tuned samples (the paper's superscript #) beside those of the
+//! splines. Where the paper draws the curve (f2, f3, E) in space, the angle theta has a panel of its own.
 
 use super::{Drawing, Entry, Inputs, sweep};
 use crate::error::Error;

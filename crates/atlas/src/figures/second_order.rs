@@ -1,9 +1,11 @@
-//! Second-order maps in space: cup and two saddles over the characteristic map (Ma, Wang and Ma 2023, Fig. 4b).
+//! Second-order maps in space: cup and two saddles over the characteristic map (Ma, Wang and Ma 2023, Fig.
+//! 4b).
 //!
-//! A surface is curvature continuous at the centre only if these maps are quadratics: then `K* = z_xx z_yy - z_xy^2` is constant,
-//! positive on the cup and negative on saddles. Colour shows K* relative to the mean of its modulus over the outer annulus; where the
-//! sign is wrong, the region is outlined. Annuli further in follow by lambda and mu. Rows are schemes; each valence has a picture
-//! of its own. Heights are scaled to the same extent.
+//! A surface is curvature continuous at the centre only if these maps are quadratics: then `K* = z_xx z_yy -
+//! z_xy^2` is constant, positive on the cup and negative on saddles. Colour shows K* relative to the mean of
+//! its modulus over the outer annulus; where the sign is wrong, the region is outlined. Annuli further in
+//! follow by lambda and mu. Rows are schemes; each valence has a picture of its own. Heights are scaled to
+//! the same extent.
 
 use super::characteristic::resolution;
 use super::grid::{Grid, NARROWEST, title_width};

@@ -1,18 +1,20 @@
 //! Sampled maps: the patches of the characteristic and second-order maps, annulus by annulus.
 //!
-//! The characteristic map `X = (x, y)` and the second-order map z over it are scaled by refinement: with parameters `u` counted in
-//! steps of the net from the centre, `X(u/2) = lambda X(u)` and `z(u/2) = mu z(u)` (Reif 1995). So one annulus of patches is sampled,
-//! and the ones inside it are copies with three [`Factors`]. By the chain rule
+//! The characteristic map `X = (x, y)` and the second-order map z over it are scaled by refinement: with
+//! parameters `u` counted in steps of the net from the centre, `X(u/2) = lambda X(u)` and `z(u/2) = mu z(u)`
+//! (Reif 1995). So one annulus of patches is sampled, and the ones inside it are copies with three
+//! [`Factors`]. By the chain rule
 //!
 //! * the Jacobian `det X'` with respect to u has the factor `4 lambda^2` from one annulus to the next;
-//! * the Hessian of z over the plane has the factor `s = mu / lambda^2`, and `K* = z_xx z_yy - z_xy^2`, the numerator of the Gauss
-//!   curvature (Ma, Wang and Ma 2023, Eq. 14), has `s^2`.
+//! * the Hessian of z over the plane has the factor `s = mu / lambda^2`, and `K* = z_xx z_yy - z_xy^2`, the
+//!   numerator of the Gauss curvature (Ma, Wang and Ma 2023, Eq. 14), has `s^2`.
 //!
-//! Values are given relative to their mean over the first annulus (over the parameters for the Jacobian, over the area and of
-//! `|K*|` for K*): a parametrisation by equal areas has the Jacobian 1, a quadratic cup has K* = 1 and a quadratic saddle K* = -1.
+//! Values are given relative to their mean over the first annulus (over the parameters for the Jacobian, over
+//! the area and of `|K*|` for K*): a parametrisation by equal areas has the Jacobian 1, a quadratic cup has
+//! K* = 1 and a quadratic saddle K* = -1.
 //!
-//! A patch is a grid of `cells x cells`. An annulus further in has half as many cells along an edge, so that its outer points are inner
-//! points of the annulus around it and no seams open.
+//! A patch is a grid of `cells x cells`. An annulus further in has half as many cells along an edge, so that
+//! its outer points are inner points of the annulus around it and no seams open.
 
 use crate::error::Error;
 use eigenring_scheme::{Lattice, Scheme};
@@ -66,8 +68,8 @@ pub struct Turn {
 }
 
 impl Turn {
-    /// Turns the bisector of sector 0 of so many up. Around a vertex the x axis is spoke 0, around a face it is the bisector itself: the first point
-    /// of ring 1 lies on it.
+    /// Turns the bisector of sector 0 of so many up. Around a vertex the x axis is spoke 0, around a face it
+    /// is the bisector itself: the first point of ring 1 lies on it.
     pub fn upright(lattice: Lattice, sectors: usize) -> Self {
         let bisector = match lattice {
             Lattice::Vertex => 1.0 / sectors as f64,
@@ -118,8 +120,8 @@ pub struct Sheet {
     pub tiles: Vec<Tile>,
 }
 
-/// The hole that is left in the middle, relative to the rim: a fifth of a millimetre in a panel as wide as a third of a page. For more
-/// than five sectors, whose patches are narrower, it is larger in proportion.
+/// The hole that is left in the middle, relative to the rim: a fifth of a millimetre in a panel as wide as a
+/// third of a page. For more than five sectors, whose patches are narrower, it is larger in proportion.
 const HOLE: f64 = 0.008;
 /// The most annuli: with lambda = 0.9 they leave a hole of 0.06, which is closed by a fan of triangles.
 const MOST: usize = 24;
@@ -131,7 +133,8 @@ const GAUSS: [(f64, f64); 3] = [
     (0.887_298_334_620_741_7, 5.0 / 18.0),
 ];
 
-/// The smallest inner radius at which the annuli of all these schemes are regular, so that they are compared on the same one.
+/// The smallest inner radius at which the annuli of all these schemes are regular, so that they are compared
+/// on the same one.
 pub fn common_inner<'a>(schemes: impl IntoIterator<Item = &'a Scheme<f64>>) -> Result<usize, Error> {
     let mut inner = 1;
     for scheme in schemes {
@@ -141,8 +144,8 @@ pub fn common_inner<'a>(schemes: impl IntoIterator<Item = &'a Scheme<f64>>) -> R
 }
 
 impl Sheet {
-    /// The characteristic map with its Jacobian, on an annulus of at least this inner radius. It needs no second-order maps, which some
-    /// schemes lack.
+    /// The characteristic map with its Jacobian, on an annulus of at least this inner radius. It needs no
+    /// second-order maps, which some schemes lack.
     pub fn characteristic(scheme: &Scheme<f64>, inner: usize, cells: usize) -> Result<Sheet, Error> {
         let annulus = Annulus::at_least(scheme, inner)?;
         let system = LocalSystem::new(scheme.limit(), annulus.numbering.rings)?;
@@ -253,8 +256,8 @@ impl Sheet {
         Turn::upright(self.lattice, self.sectors())
     }
 
-    /// The points of sector 0 with their parameters: steps of the net along its own and along the next spoke. Points that patches share
-    /// are given once, those on the rim not at all.
+    /// The points of sector 0 with their parameters: steps of the net along its own and along the next spoke.
+    /// Points that patches share are given once, those on the rim not at all.
     pub fn sector_points(&self) -> impl Iterator<Item = (f64, f64, Point)> + '_ {
         let (cells, width) = (self.cells, self.cells + 1);
         let tiles = self.tiles.iter().filter(|tile| tile.patch.sector == 0);
@@ -314,7 +317,8 @@ impl Sheet {
         })
     }
 
-    /// Triangles from the inner boundary to the centre, the last corner twice, all with the boundary's mean value.
+    /// Triangles from the inner boundary to the centre, the last corner twice, all with the boundary's mean
+    /// value.
     pub fn fan(&self) -> Vec<[Point; 4]> {
         let edges: Vec<Vec<Point>> = self.inner_edges().collect();
         let count = edges.iter().map(Vec::len).sum::<usize>() as f64;
@@ -345,7 +349,8 @@ impl Sheet {
         })
     }
 
-    /// The boundaries of patches, each once except for the inner boundary, which is the outer one of the next annulus.
+    /// The boundaries of patches, each once except for the inner boundary, which is the outer one of the next
+    /// annulus.
     pub fn edges(&self) -> Vec<Vec<Point>> {
         let mut edges = Vec::new();
         for tile in &self.tiles {
@@ -382,8 +387,8 @@ impl Sheet {
         lines.collect()
     }
 
-    /// Where the value is zero: the boundary of the region where `sign` times the value is negative, cell by cell, with linear
-    /// interpolation along the cells' edges.
+    /// Where the value is zero: the boundary of the region where `sign` times the value is negative, cell by
+    /// cell, with linear interpolation along the cells' edges.
     pub fn zero_lines(&self, sign: f64) -> Vec<[Point; 2]> {
         let mut segments = Vec::new();
         for corners in self.quads() {
@@ -407,7 +412,8 @@ impl Sheet {
     }
 }
 
-/// Values below this times the mean are zero up to rounding: second derivatives lose half of the digits at worst.
+/// Values below this times the mean are zero up to rounding: second derivatives lose half of the digits at
+/// worst.
 const ZERO: f64 = 1e-8;
 
 /// The natural configuration on the system's net, whose annuli shrink toward the centre.

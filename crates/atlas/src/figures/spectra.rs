@@ -1,9 +1,9 @@
 //! Eigenvalues by Fourier index: the spectrum of a scheme at a glance.
 //!
-//! Moduli of the eigenvalues of each Fourier block, on the smallest closed set of rings that hides none of interest (see
-//! [`Sufficient`]); blocks k and N-k have conjugate spectra, so k runs to N/2. A multiple eigenvalue of a block is as many marks
-//! side by side. For bounded curvature lambda is from block 1, mu = lambda^2 (s = 1) from blocks 0 and 2, and all others
-//! are smaller (Ma, Wang and Ma 2023, section 3).
+//! Moduli of the eigenvalues of each Fourier block, on the smallest closed set of rings that hides none of
+//! interest (see [`Sufficient`]); blocks k and N-k have conjugate spectra, so k runs to N/2. A multiple
+//! eigenvalue of a block is as many marks side by side. For bounded curvature lambda is from block 1, mu =
+//! lambda^2 (s = 1) from blocks 0 and 2, and all others are smaller (Ma, Wang and Ma 2023, section 3).
 
 use super::grid::Grid;
 use super::subject::{Subject, chosen};

@@ -1,4 +1,5 @@
-//! The spline stencils of several valences, with what is feasible and recommended: Ma, Wang and Ma (2023), Fig. 7.
+//! The spline stencils of several valences, with what is feasible and recommended: Ma, Wang and Ma (2023),
+//! Fig. 7.
 
 use super::{Drawing, Entry, Inputs, sweep};
 use crate::error::Error;

@@ -26,8 +26,8 @@ pub struct Studies {
 }
 
 impl Studies {
-    /// The studies stored below a folder (`FOLDER/lambda/tables.json`), and those of the needed valences, computed where they are
-    /// not stored. Without a folder nothing is read.
+    /// The studies stored below a folder (`FOLDER/lambda/tables.json`), and those of the needed valences,
+    /// computed where they are not stored. Without a folder nothing is read.
     ///
     /// # Errors
     /// [`Error::Read`] and [`Error::InFile`] for what is stored; those of [`studies`] for what is not.
@@ -76,7 +76,8 @@ impl Studies {
         })
     }
 
-    /// The splines and featured values of a valence: stored ones, else the embedded ones; `None` where there are neither.
+    /// The splines and featured values of a valence: stored ones, else the embedded ones; `None` where there
+    /// are neither.
     pub fn entry(&self, valence: usize) -> Result<Option<Entry>, Error> {
         if let Some(study) = self.by_valence.get(&valence) {
             return Ok(Some(self.parameters.entry(study)));

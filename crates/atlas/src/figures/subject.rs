@@ -70,8 +70,8 @@ pub fn chosen(inputs: &Inputs<'_>, valence: usize) -> Result<Vec<Subject>, Error
         .collect()
 }
 
-/// The lambda-scheme at five featured lambdas, ascending: 0.35, lambda_A*, lambda_M*, lambda_C* and half way from there to lambda_r2
-/// (Ma, Wang and Ma 2023, Fig. 10); four where no lambda_r2 is known.
+/// The lambda-scheme at five featured lambdas, ascending: 0.35, lambda_A*, lambda_M*, lambda_C* and half way
+/// from there to lambda_r2 (Ma, Wang and Ma 2023, Fig. 10); four where no lambda_r2 is known.
 pub fn featured(inputs: &Inputs<'_>, valence: usize) -> Result<Vec<Subject>, Error> {
     let tuner = inputs.tuner;
     let optimal = tuner.optimal(valence)?.plane.lambda;

@@ -40,7 +40,8 @@ pub fn rule() -> Stroke {
     }
 }
 
-/// Shades the recommended region and marks the featured values, with their symbols above the frame or without.
+/// Shades the recommended region and marks the featured values, with their symbols above the frame or
+/// without.
 pub fn mark(chart: Chart, entry: &Entry, symbols: bool) -> Chart {
     let chart = chart
         .span(entry.lambda_r1, entry.lambda_r2, Colour::SHADE)
@@ -96,7 +97,8 @@ impl Point {
     }
 }
 
-/// The spline stencils over the range shown, as far as they are defined; kinks and knots are among the lambdas.
+/// The spline stencils over the range shown, as far as they are defined; kinks and knots are among the
+/// lambdas.
 pub fn curve(valence: usize, inputs: &Inputs<'_>) -> Result<(Entry, Vec<Point>), Error> {
     let studies: &Studies = inputs.studies;
     let options = studies.options();

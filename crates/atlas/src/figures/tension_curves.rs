@@ -1,8 +1,9 @@
 //! One control polygon with several tensions and orders (Fang, Ma and Wang, Eqs. 1 and 2).
 //!
-//! A panel for each order k: the closed polygon and its limit curves. Every level cuts corners with tension and averages k-3 times, so that curves
-//! of higher order lie further inside; a larger u0 pulls them to the polygon (order 3) or to its averages, and `u0 < 1` loosens them.
-//! `u0 = 1` is the uniform B-spline of degree k-1.
+//! A panel for each order k: the closed polygon and its limit curves. Every level cuts corners with tension
+//! and averages k-3 times, so that curves of higher order lie further inside; a larger u0 pulls them to the
+//! polygon (order 3) or to its averages, and `u0 < 1` loosens them. `u0 = 1` is the uniform B-spline of
+//! degree k-1.
 
 use super::grid::Grid;
 use super::{Drawing, Entry, Inputs};

@@ -1,7 +1,7 @@
 //! The regularisation and the weight of the objective: Ma, Wang and Ma (2023), Fig. 5.
 //!
-//! Eqs. 16 and 17, `r(K, e) = (K + sqrt(K^2 + 4 e^2))/2` and `w = r(K, n e)/r(K, e)`, straight from their definition. K is in units of the ideal
-//! map's |ac - b^2|, as in Eq. 20.
+//! Eqs. 16 and 17, `r(K, e) = (K + sqrt(K^2 + 4 e^2))/2` and `w = r(K, n e)/r(K, e)`, straight from their
+//! definition. K is in units of the ideal map's |ac - b^2|, as in Eq. 20.
 
 use super::{Drawing, Entry, Inputs};
 use crate::error::Error;

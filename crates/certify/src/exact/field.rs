@@ -14,8 +14,8 @@ pub struct Field {
     modulus: Vec<BigRational>,
 }
 
-/// A number of a [`Field`]: a polynomial in w of a degree below that of the field, lowest coefficient first, without zeros at
-/// the end. Equal numbers have equal coefficients.
+/// A number of a [`Field`]: a polynomial in w of a degree below that of the field, lowest coefficient first,
+/// without zeros at the end. Equal numbers have equal coefficients.
 pub type Element = Vec<BigRational>;
 
 impl Field {

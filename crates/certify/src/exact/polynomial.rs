@@ -19,8 +19,8 @@ impl Poly {
         Poly(coefficients)
     }
 
-    /// The characteristic polynomial `det(x - A)` of a square matrix given by rows, by the recursion of Faddeev and Le Verrier:
-    /// `M_1 = I`, `c_{n-k} = -trace(A M_k)/k`, `M_{k+1} = A M_k + c_{n-k} I`.
+    /// The characteristic polynomial `det(x - A)` of a square matrix given by rows, by the recursion of
+    /// Faddeev and Le Verrier: `M_1 = I`, `c_{n-k} = -trace(A M_k)/k`, `M_{k+1} = A M_k + c_{n-k} I`.
     pub fn characteristic(matrix: &[Vec<Element>], field: &Field) -> Self {
         let size = matrix.len();
         let zero = Vec::new;
@@ -129,8 +129,8 @@ impl Poly {
         Some(Poly::new(self.0.iter().map(|c| field.times(c, &lead)).collect()))
     }
 
-    /// An enclosure of the values at the members of an interval, for a polynomial with real coefficients: their imaginary parts
-    /// are not looked at.
+    /// An enclosure of the values at the members of an interval, for a polynomial with real coefficients:
+    /// their imaginary parts are not looked at.
     pub fn enclose(&self, field: &Field, x: Interval) -> Interval {
         let coefficients = self.0.iter().rev().map(|c| field.enclose(c).0);
         coefficients.fold(Interval::point(0.0), |sum, c| sum * x + c)

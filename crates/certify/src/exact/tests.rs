@@ -59,7 +59,8 @@ fn cyclotomic_polynomials_are_the_known_ones() {
     }
 }
 
-/// Catmull-Clark's trace and determinant in block k: `d2 + 2 e1 c + f3 = (5 + c)/8` and `1/16` (Ball and Storry 1988).
+/// Catmull-Clark's trace and determinant in block k: `d2 + 2 e1 c + f3 = (5 + c)/8` and `1/16` (Ball and
+/// Storry 1988).
 #[test]
 fn characteristic_polynomials_are_those_of_the_literature() {
     for valence in [3, 5, 6, 7, 12, 64] {

@@ -1,14 +1,15 @@
 //! Angles: the arc tangent of an interval and the argument of a box of the plane.
 //!
-//! For a double `t` in `[0, 1]` let `a` be the library's approximation of `atan t`, of whatever quality, and `s, c`
-//! enclosures of its sine and cosine. The addition theorem gives
+//! For a double `t` in `[0, 1]` let `a` be the library's approximation of `atan t`, of whatever quality, and
+//! `s, c` enclosures of its sine and cosine. The addition theorem gives
 //!
 //! ```text
 //! atan t = a + atan r,   r = (t c - s) / (c + t s),
 //! ```
 //!
-//! and `|atan r|` lies between `|r| - |r|^3 / 3` and `|r|` (the series alternates). Larger arguments are reflected,
-//! `atan t = pi/2 - atan(1/t)`, and an interval is mapped by its ends, the function being increasing.
+//! and `|atan r|` lies between `|r| - |r|^3 / 3` and `|r|` (the series alternates). Larger arguments are
+//! reflected, `atan t = pi/2 - atan(1/t)`, and an interval is mapped by its ends, the function being
+//! increasing.
 
 use super::{Interval, turn};
 use eigenring_spline::Scalar;
@@ -29,8 +30,8 @@ impl Interval {
         Self::spanning(lo, hi)
     }
 
-    /// The arguments in `[-pi, pi]` of the points `(x, y)`, all of `[-pi, pi]` where the points may lie on the negative
-    /// x-axis or be the origin.
+    /// The arguments in `[-pi, pi]` of the points `(x, y)`, all of `[-pi, pi]` where the points may lie on
+    /// the negative x-axis or be the origin.
     pub fn argument(x: Self, y: Self) -> Self {
         let half_turn = Self::pi() * Self::point(0.5);
         // each coordinate occurs once in a quotient, so its range is sharp

@@ -1,8 +1,9 @@
-//! Decimal numbers as written, enclosed: the point itself where a double has exactly that value, adjacent doubles
-//! otherwise.
+//! Decimal numbers as written, enclosed: the point itself where a double has exactly that value, adjacent
+//! doubles otherwise.
 //!
-//! The standard library reads a decimal correctly rounded and writes a double with all its digits (a double has at most
-//! 767 significant ones), so comparing the two digit strings says on which side of the double the written number lies.
+//! The standard library reads a decimal correctly rounded and writes a double with all its digits (a double
+//! has at most 767 significant ones), so comparing the two digit strings says on which side of the double the
+//! written number lies.
 
 use super::Interval;
 use std::cmp::Ordering;

@@ -29,7 +29,8 @@ impl Neg for Interval {
 
 impl Mul for Interval {
     type Output = Self;
-    /// The bounds are those of two products picked by the signs; only two factors that both hold zero inside need four.
+    /// The bounds are those of two products picked by the signs; only two factors that both hold zero inside
+    /// need four.
     fn mul(self, other: Self) -> Self {
         let (a, b) = (self, other);
         if a.is_zero() || b.is_zero() {
@@ -95,7 +96,8 @@ impl Interval {
         Self::spanning(self.mig(), self.mag())
     }
 
-    /// The squares of the members, never negative: sharper than a product, which takes its factors for independent.
+    /// The squares of the members, never negative: sharper than a product, which takes its factors for
+    /// independent.
     pub fn square(self) -> Self {
         let size = self.abs();
         size * size

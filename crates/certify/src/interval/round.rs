@@ -1,19 +1,20 @@
 //! Directed rounding built from correctly rounded operations and their exact errors.
 //!
-//! Rust computes `+ - * /` and square roots rounded to nearest, and no portable way changes that mode. The error of such
-//! an operation can be had exactly: that of a sum by the two-sum of Knuth (1969), that of a product, of a quotient or of a
-//! root by a fused multiply-add (see Muller et al. 2018, *Handbook of Floating-Point Arithmetic*, chapters 4 and 5). Its
-//! sign says on which side of the rounded result the true one lies, so a bound moves to the neighbouring double only when
-//! it must, and an operation without error keeps a point a point: a zero that holds exactly stays an exact zero.
+//! Rust computes `+ - * /` and square roots rounded to nearest, and no portable way changes that mode. The
+//! error of such an operation can be had exactly: that of a sum by the two-sum of Knuth (1969), that of a
+//! product, of a quotient or of a root by a fused multiply-add (see Muller et al. 2018, *Handbook of
+//! Floating-Point Arithmetic*, chapters 4 and 5). Its sign says on which side of the rounded result the true
+//! one lies, so a bound moves to the neighbouring double only when it must, and an operation without error
+//! keeps a point a point: a zero that holds exactly stays an exact zero.
 //!
-//! The residual of a product, a quotient or a root can itself underflow to zero. Below [`RESIDUAL_SAFE`] a zero residual
-//! is therefore not taken as a proof of exactness, unless the operation is by one.
+//! The residual of a product, a quotient or a root can itself underflow to zero. Below [`RESIDUAL_SAFE`] a
+//! zero residual is therefore not taken as a proof of exactness, unless the operation is by one.
 //!
-//! Every function returns the pair `(below, above)` of bounds of one operation on two doubles that are not NaN; where
-//! infinite bounds meet they follow the interval convention `0 * inf = 0`.
+//! Every function returns the pair `(below, above)` of bounds of one operation on two doubles that are not
+//! NaN; where infinite bounds meet they follow the interval convention `0 * inf = 0`.
 
-/// Products of at least this size have a residual that is representable: `2^-1022 * 2^53`, the smallest normal double
-/// with room for the 53 further bits of the residual.
+/// Products of at least this size have a residual that is representable: `2^-1022 * 2^53`, the smallest
+/// normal double with room for the 53 further bits of the residual.
 const RESIDUAL_SAFE: f64 = f64::MIN_POSITIVE * 9_007_199_254_740_992.0;
 
 /// Which side of the rounded result the true one is on.
@@ -40,7 +41,8 @@ impl Error {
     }
 }
 
-/// Bounds of a true result from the rounded one. An overflow of finite operands leaves the largest double on the inside.
+/// Bounds of a true result from the rounded one. An overflow of finite operands leaves the largest double on
+/// the inside.
 fn bounds(rounded: f64, error: Error) -> (f64, f64) {
     // a negative zero would be a second representation of the same bound
     let rounded = rounded + 0.0;

@@ -17,7 +17,8 @@ fn holds(interval: Interval, exact: &BigRational) -> bool {
     below && (interval.hi == f64::INFINITY || *exact <= rational(interval.hi))
 }
 
-/// Whether no narrower interval of doubles holds the exact number: a point or two adjacent doubles, as it should be.
+/// Whether no narrower interval of doubles holds the exact number: a point or two adjacent doubles, as it
+/// should be.
 fn is_tight(interval: Interval, exact: &BigRational) -> bool {
     let representable = interval.is_point() && rational(interval.lo) == *exact;
     let adjacent =
@@ -25,7 +26,8 @@ fn is_tight(interval: Interval, exact: &BigRational) -> bool {
     representable || adjacent
 }
 
-/// Doubles of every kind a formula meets: zeros, small integers, simple fractions, moderate and extreme sizes.
+/// Doubles of every kind a formula meets: zeros, small integers, simple fractions, moderate and extreme
+/// sizes.
 fn double() -> impl Strategy<Value = f64> {
     prop_oneof![
         Just(0.0),
@@ -123,7 +125,8 @@ proptest! {
         let exact = BigRational::from(BigInt::from(digits)) * num_traits::pow::Pow::pow(&ten, exponent);
         let parsed = Interval::parse(&format!("{digits}e{exponent}")).expect("a decimal");
         prop_assert!(is_tight(parsed, &exact), "{parsed:?}");
-        // a double written with all the digits it needs is not always its own decimal, but with every digit it is
+        // a double written with all the digits it needs is not always its own decimal, but with every digit
+        // it is
         prop_assert_eq!(Interval::parse(&format!("{x:.800e}")), Some(Interval::point(x)));
     }
 
@@ -134,7 +137,8 @@ proptest! {
     }
 }
 
-/// `cos(2 pi k / n)` between two rationals: pi by Machin's formula, the cosine by its series, both with their remainders.
+/// `cos(2 pi k / n)` between two rationals: pi by Machin's formula, the cosine by its series, both with their
+/// remainders.
 fn cosine(k: i64, n: i64) -> (BigRational, BigRational) {
     // everything to 60 decimals; each rounding is accounted for by the margin of 1e-50
     let unit = BigInt::from(10).pow(60);

@@ -1,8 +1,8 @@
 //! The corner angle of the natural configuration.
 //!
-//! theta is the angle at F, between V and E, in the triangle V E F of the first quad (V the centre, the origin); it is half
-//! the angle of the quad's outermost corner. `theta < pi/2` says that no corner is concave; Ma, Wang and Ma (2023, section
-//! 4.3) ask for `theta <= pi/2 - pi/(2 N)`.
+//! theta is the angle at F, between V and E, in the triangle V E F of the first quad (V the centre, the
+//! origin); it is half the angle of the quad's outermost corner. `theta < pi/2` says that no corner is
+//! concave; Ma, Wang and Ma (2023, section 4.3) ask for `theta <= pi/2 - pi/(2 N)`.
 
 use super::PlaneNet;
 use crate::{Enclose, Interval, Status};

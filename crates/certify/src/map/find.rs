@@ -1,8 +1,8 @@
 //! The search for evidence, in floating point.
 //!
-//! Nothing here is trusted: what is found is a claim, which the checks of the parent module prove or not. The Jacobian is
-//! searched on the bounds of its enclosed coefficients, so that the subdivision found suits wide enclosures too; boundary
-//! and curvatures on the middles.
+//! Nothing here is trusted: what is found is a claim, which the checks of the parent module prove or not. The
+//! Jacobian is searched on the bounds of its enclosed coefficients, so that the subdivision found suits wide
+//! enclosures too; boundary and curvatures on the middles.
 
 use super::gauss::{self, CurvatureEvidence, Heights, Sign};
 use super::regular::JacobianEvidence;
@@ -24,8 +24,8 @@ pub struct Limits {
 }
 
 impl Default for Limits {
-    /// Depth and number of parts are empirical: known schemes need none or one halving, and a map that needs ten is within
-    /// `4^-10` of a fold. A tenth decides every sign and is quick.
+    /// Depth and number of parts are empirical: known schemes need none or one halving, and a map that needs
+    /// ten is within `4^-10` of a fold. A tenth decides every sign and is quick.
     fn default() -> Self {
         Limits {
             depth: 10,
@@ -118,7 +118,8 @@ pub fn jacobian<S: Enclose>(net: &PlaneNet<S>, limits: Limits) -> JacobianEviden
                 examined += 1;
                 let [lower, upper] = &part.bounds;
                 for (value, at) in upper.corners().into_iter().zip(part.square.corners()) {
-                    // ties in favour of a clear case: what is nearly zero is left for the rounding of the check
+                    // ties in favour of a clear case: what is nearly zero is left for the rounding of the
+                    // check
                     if value <= 0.0 && wrong.is_none_or(|(worst, _)| value < worst) {
                         wrong = Some((value, place(*patch, patch.sector, at)));
                     }

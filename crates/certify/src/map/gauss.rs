@@ -1,32 +1,32 @@
 //! Signs of the Gauss curvature of second-order maps.
 //!
-//! A second-order map z over the characteristic map (x, y) is meant to be a cup with `z_xx z_yy - z_xy^2 > 0` everywhere or a
-//! saddle with `< 0`; `K_m` of Ma, Wang and Ma (2023, Eq. 33) collects the worst values of the cup and of two saddles. With
-//! J the Jacobian and, for w = uu, uv, vv,
+//! A second-order map z over the characteristic map (x, y) is meant to be a cup with `z_xx z_yy - z_xy^2 > 0`
+//! everywhere or a saddle with `< 0`; `K_m` of Ma, Wang and Ma (2023, Eq. 33) collects the worst values of
+//! the cup and of two saddles. With J the Jacobian and, for w = uu, uv, vv,
 //!
 //! ```text
 //! L_w = J z_w + z_u (x_v y_w - y_v x_w) + z_v (y_u x_w - x_u y_w)
 //! ```
 //!
-//! (the determinants that give the second fundamental form) the chain rule gives `z_xx z_yy - z_xy^2 = K / J^4` with the
-//! polynomial `K = L_uu L_vv - L_uv^2` of degrees `6 d - 4`. Raised to the degrees `8 d - 4` of `J^4`, the quotient is a
-//! rational Bezier function: where all coefficients `w_i` of `J^4` are positive its values are convex combinations of the
-//! quotients `k_i / w_i` of coefficients, whose smallest is therefore a bound. On parts of the patches it converges to the
-//! extreme value, quadratically with their size.
+//! (the determinants that give the second fundamental form) the chain rule gives `z_xx z_yy - z_xy^2 = K /
+//! J^4` with the polynomial `K = L_uu L_vv - L_uv^2` of degrees `6 d - 4`. Raised to the degrees `8 d - 4` of
+//! `J^4`, the quotient is a rational Bezier function: where all coefficients `w_i` of `J^4` are positive its
+//! values are convex combinations of the quotients `k_i / w_i` of coefficients, whose smallest is therefore a
+//! bound. On parts of the patches it converges to the extreme value, quadratically with their size.
 //!
-//! **Sectors.** A cup (index 0) and a mode of index N/2 look the same in every sector, up to sign. The pair of saddles
-//! `z1 + i z2` of another index k turns with the sectors by `phi = 2 pi k j / N`. K is a quadratic form in z; with its
-//! bilinear form `K_ab` on sector 0 the two maps have, in sector j,
+//! **Sectors.** A cup (index 0) and a mode of index N/2 look the same in every sector, up to sign. The pair
+//! of saddles `z1 + i z2` of another index k turns with the sectors by `phi = 2 pi k j / N`. K is a quadratic
+//! form in z; with its bilinear form `K_ab` on sector 0 the two maps have, in sector j,
 //!
 //! ```text
 //! (K_11 + K_22) / 2 +- ((K_11 - K_22) / 2 cos 2 phi - K_12 sin 2 phi),
 //! ```
 //!
-//! so three polynomials `P_0, P_1, P_2` of one sector serve all. A bound for all phases, `P_0 -+ |(P_1, P_2)|`, is tried
-//! first.
+//! so three polynomials `P_0, P_1, P_2` of one sector serve all. A bound for all phases, `P_0 -+ |(P_1,
+//! P_2)|`, is tried first.
 //!
-//! **Scaling.** Values are those of maps with unit Euclidean norm of x and z over the net, as the paper's: they carry the
-//! factor `|x|^4 / |z|^2`. On the image of the annulus under m scalings, K has the same sign.
+//! **Scaling.** Values are those of maps with unit Euclidean norm of x and z over the net, as the paper's:
+//! they carry the factor `|x|^4 / |z|^2`. On the image of the annulus under m scalings, K has the same sign.
 
 use super::regular::between;
 use super::{NetError, Place, PlaneNet, Subdivision, check_symmetry};
@@ -37,7 +37,8 @@ use eigenring_spline::bernstein::{Coefficient, Polynomial, Scaled};
 use eigenring_spline::uniform::to_bernstein;
 use serde::{Deserialize, Serialize};
 
-/// The heights of second-order maps over a plane net: one real mode, or real and imaginary part of a complex one.
+/// The heights of second-order maps over a plane net: one real mode, or real and imaginary part of a complex
+/// one.
 #[derive(Clone, Debug)]
 pub struct Heights<S> {
     fourier: usize,
@@ -59,8 +60,8 @@ pub enum Sign {
 pub struct CurvatureEvidence {
     /// The parts of each of [`PlaneNet::patches`] whose coefficients give the bound.
     pub patches: Vec<Subdivision>,
-    /// For each map a place, on one of these patches or its image in another sector, where the curvature is nearest to the
-    /// wrong sign, or has it.
+    /// For each map a place, on one of these patches or its image in another sector, where the curvature is
+    /// nearest to the wrong sign, or has it.
     pub places: Vec<Place>,
 }
 
@@ -312,7 +313,8 @@ impl Check {
         Some(self.sign.times(numerator) / values[0])
     }
 
-    /// Lowers the bounds of the curvature times the sign for each map to what holds on a part of a patch in all sectors.
+    /// Lowers the bounds of the curvature times the sign for each map to what holds on a part of a patch in
+    /// all sectors.
     fn lower<S: Enclose>(&self, part: &[Polynomial<S>], floor: &mut [f64]) {
         let coefficients: Vec<Vec<Interval>> = part
             .iter()

@@ -1,13 +1,15 @@
 //! Regularity: the Jacobian of the map has one sign on the whole annulus.
 //!
-//! The Jacobian of a patch of degree d is a polynomial of degrees `(2d - 1, 2d - 1)`. If all its Bernstein coefficients are
-//! positive, so is the Jacobian; if not, the coefficients on parts of the patch decide, which converge to its values.
-//! By rotation (and reflection) symmetry one sector (or half of it) stands for all.
+//! The Jacobian of a patch of degree d is a polynomial of degrees `(2d - 1, 2d - 1)`. If all its Bernstein
+//! coefficients are positive, so is the Jacobian; if not, the coefficients on parts of the patch decide,
+//! which converge to its values. By rotation (and reflection) symmetry one sector (or half of it) stands for
+//! all.
 //!
-//! **Refuted** by two points of the annulus where the Jacobian certainly has opposite signs: it is continuous (d >= 2) on a
-//! connected set, so it vanishes somewhere, and the map is not injective either, since the degree of an injective map of the plane is
-//! constant and 1 or -1. The normals of almost all surfaces then point to both sides (Peters and Reif 2008, section 5.2). A Jacobian that
-//! merely touches zero refutes nothing.
+//! **Refuted** by two points of the annulus where the Jacobian certainly has opposite signs: it is continuous
+//! (d >= 2) on a connected set, so it vanishes somewhere, and the map is not injective either, since the
+//! degree of an injective map of the plane is constant and 1 or -1. The normals of almost all surfaces then
+//! point to both sides (Peters and Reif 2008, section 5.2). A Jacobian that merely touches zero refutes
+//! nothing.
 
 use super::{Place, PlaneNet, Subdivision};
 use crate::{Enclose, Interval, Status};
@@ -39,7 +41,8 @@ pub struct Regularity {
     pub status: Status,
     /// Proven: the orientation. Undecided: the one that was tried.
     pub positive: bool,
-    /// Bounds of the Jacobian: over the whole map (proven, undecided), or its values at the two places (refuted).
+    /// Bounds of the Jacobian: over the whole map (proven, undecided), or its values at the two places
+    /// (refuted).
     pub jacobian: [Interval; 2],
     /// Where it has a wrong sign.
     pub fold: Option<[Place; 2]>,
@@ -68,8 +71,8 @@ impl Regularity {
     }
 }
 
-/// Checks the claim. `jacobian` holds an enclosure of the smallest and one of the largest Jacobian, with outer bounds from
-/// coefficients and inner ones from values at the corners of the parts.
+/// Checks the claim. `jacobian` holds an enclosure of the smallest and one of the largest Jacobian, with
+/// outer bounds from coefficients and inner ones from values at the corners of the parts.
 pub fn regular<S: Enclose>(net: &PlaneNet<S>, evidence: &JacobianEvidence) -> Regularity {
     match evidence {
         JacobianEvidence::Sign { positive, patches } => one_sign(net, *positive, patches),

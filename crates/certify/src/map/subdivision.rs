@@ -1,12 +1,14 @@
 //! How far a patch or a curve is cut up: a tree of halvings, written down in preorder.
 //!
-//! The text has a `1` for a part that is cut (a square into four quarters, a curve into two halves, whose trees follow in
-//! order) and a `0` for one that is kept. Whatever the text, the parts kept cover the whole without gaps, so a check that
-//! walks the tree needs no proof of coverage; a text that ends early, goes on, or is deeper than [`MAX_DEPTH`] is refused.
+//! The text has a `1` for a part that is cut (a square into four quarters, a curve into two halves, whose
+//! trees follow in order) and a `0` for one that is kept. Whatever the text, the parts kept cover the whole
+//! without gaps, so a check that walks the tree needs no proof of coverage; a text that ends early, goes on,
+//! or is deeper than [`MAX_DEPTH`] is refused.
 
 use serde::{Deserialize, Serialize};
 
-/// The deepest subdivision accepted: parts of size `2^-20`, beyond which enclosures of doubles have no digits to win.
+/// The deepest subdivision accepted: parts of size `2^-20`, beyond which enclosures of doubles have no digits
+/// to win.
 pub const MAX_DEPTH: usize = 20;
 
 /// A tree of halvings, see the module page.

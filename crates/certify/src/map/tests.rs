@@ -409,7 +409,8 @@ fn curvature_signs_of_known_maps() {
         );
         assert_eq!(ranges.len(), 3);
         for (which, range) in ranges.iter().enumerate() {
-            // every value on a grid over all sectors is on the right side of the extreme, which some come close to
+            // every value on a grid over all sectors is on the right side of the extreme, which some come
+            // close to
             let norm = |values: &[f64]| values.iter().map(|v| v * v).sum::<f64>();
             let factor = norm(&maps.natural[0]).powi(2) / norm(&maps.second_order[which]);
             let mut nearest = f64::INFINITY;

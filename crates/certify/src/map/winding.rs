@@ -1,23 +1,24 @@
-//! Injectivity: a regular self-similar map is injective exactly when its outer boundary winds once round the origin.
+//! Injectivity: a regular self-similar map is injective exactly when its outer boundary winds once round the
+//! origin.
 //!
-//! **Theorem** (Reif 1995; Zorin 2000, *SIAM J. Numer. Anal.* 37; Umlauf 2000; Peters and Reif 2008, chapter 5). Let the map
-//! `X` of the annulus be regular, extended by `X(2 t) = X(t) / lambda`, `0 < lambda < 1`, and let the image of its outer
-//! boundary miss the origin and have winding number w about it. Then the extension covers the punctured plane `|w|` times;
-//! it is injective if and only if `|w| = 1`.
+//! **Theorem** (Reif 1995; Zorin 2000, *SIAM J. Numer. Anal.* 37; Umlauf 2000; Peters and Reif 2008, chapter
+//! 5). Let the map `X` of the annulus be regular, extended by `X(2 t) = X(t) / lambda`, `0 < lambda < 1`, and
+//! let the image of its outer boundary miss the origin and have winding number w about it. Then the extension
+//! covers the punctured plane `|w|` times; it is injective if and only if `|w| = 1`.
 //!
-//! *Why.* The inner boundary is the outer one scaled by lambda, so it has the same winding number, and the number of times
-//! the annulus covers the origin, the difference of the two (all preimages count with one sign), is zero: the origin is
-//! never met. The map of the punctured plane to itself is a local homeomorphism that commutes with the scalings, hence a
-//! local homeomorphism of the quotients, which are tori. Of compact spaces this is a covering, with `|w|` sheets by its
-//! action on loops. If `|w|` is not 1 no injective extension exists, regular or not: the boundary would be a Jordan curve
-//! about the origin.
+//! *Why.* The inner boundary is the outer one scaled by lambda, so it has the same winding number, and the
+//! number of times the annulus covers the origin, the difference of the two (all preimages count with one
+//! sign), is zero: the origin is never met. The map of the punctured plane to itself is a local homeomorphism
+//! that commutes with the scalings, hence a local homeomorphism of the quotients, which are tori. Of compact
+//! spaces this is a covering, with `|w|` sheets by its action on loops. If `|w|` is not 1 no injective
+//! extension exists, regular or not: the boundary would be a Jordan curve about the origin.
 //!
-//! **The winding number** without angles. Parts of the boundary curve of sector 0 are found each in one of the four open
-//! half-planes `x > 0`, `y > 0`, `x < 0`, `y < 0`, numbered by quarter turns. Consecutive parts share a point, so their
-//! half-planes differ by at most a quarter; c is the sum of these differences. Each end of the curve has an argument within
-//! a quarter turn of its half-plane's, so the change of argument lies in `(c/4 - 1/2, c/4 + 1/2)` turns. By rotation
-//! symmetry it is `k / N + j` for an integer j, of which that range holds at most one; the N sectors together wind
-//! `k + N j` times.
+//! **The winding number** without angles. Parts of the boundary curve of sector 0 are found each in one of
+//! the four open half-planes `x > 0`, `y > 0`, `x < 0`, `y < 0`, numbered by quarter turns. Consecutive parts
+//! share a point, so their half-planes differ by at most a quarter; c is the sum of these differences. Each
+//! end of the curve has an argument within a quarter turn of its half-plane's, so the change of argument lies
+//! in `(c/4 - 1/2, c/4 + 1/2)` turns. By rotation symmetry it is `k / N + j` for an integer j, of which that
+//! range holds at most one; the N sectors together wind `k + N j` times.
 
 use super::{PlaneNet, Subdivision};
 use crate::{Enclose, Status};
@@ -43,8 +44,9 @@ pub struct Winding {
 /// A curve in the plane in Bernstein form: its coefficients as points.
 pub(super) type Curve<S> = [Vec<S>; 2];
 
-/// The outer boundary of sector 0 in order: along the sides `u = 1` of the patches at the far end of the own spoke, then back
-/// along the sides `v = 1` of those at the far end of the next. Without rotation symmetry the boundaries of all sectors.
+/// The outer boundary of sector 0 in order: along the sides `u = 1` of the patches at the far end of the own
+/// spoke, then back along the sides `v = 1` of those at the far end of the next. Without rotation symmetry
+/// the boundaries of all sectors.
 pub(super) fn boundary<S: Enclose>(net: &PlaneNet<S>) -> Vec<Curve<S>> {
     let conversion = to_bernstein::<S>(net.annulus.degree);
     let last = 2 * net.annulus.inner - 1;

@@ -1,17 +1,17 @@
 //! Statements about eigenvalues in closed form.
 //!
-//! In block k the two one-ring eigenvalues are the roots of `x^2 - T_k x + p`, `p = f3 g3`. By the criterion of Jury both lie inside
-//! a disc of radius m exactly if `|p| < m^2` and `m^2 -+ T_k m + p > 0`, that is
+//! In block k the two one-ring eigenvalues are the roots of `x^2 - T_k x + p`, `p = f3 g3`. By the criterion
+//! of Jury both lie inside a disc of radius m exactly if `|p| < m^2` and `m^2 -+ T_k m + p > 0`, that is
 //!
 //! ```text
 //! (m - f3)(m - g3) - h m (1 + c_k) > 0         (m + f3)(m + g3) + h m (1 + c_k) > 0
 //! ```
 //!
 //! The first is `h m (c_j - c_k) + ...` with equality at `m = lambda, j = 1` and `m = mu, j = 2` (see
-//! [`Identities`](crate::Identities)), so that for k >= 3 it says `h > 0`; the second is linear in `c_k` and then decided by the last
-//! block, K = floor(N/2), alone. Besides there are p/lambda in block 1, p/mu in block 2 and z0 in block 0. At N = 3 there are only
-//! blocks 0 and 1, with mu in block 1; at N = 4 block 2 has g3 = f3 = mu. Outer rings have the eigenvalues
-//! 1/8, 1/16, 1/32, 1/64 in every block, and zero.
+//! [`Identities`](crate::Identities)), so that for k >= 3 it says `h > 0`; the second is linear in `c_k` and
+//! then decided by the last block, K = floor(N/2), alone. Besides there are p/lambda in block 1, p/mu in
+//! block 2 and z0 in block 0. At N = 3 there are only blocks 0 and 1, with mu in block 1; at N = 4 block 2
+//! has g3 = f3 = mu. Outer rings have the eigenvalues 1/8, 1/16, 1/32, 1/64 in every block, and zero.
 
 use super::point::Point;
 use crate::{Centred, Enclose, Interval, Status, Witness};
@@ -29,7 +29,8 @@ fn positive(value: Centred<1>) -> Status {
     }
 }
 
-/// Numbers that are positive exactly if all eigenvalues other than 1, lambda and mu have a modulus below m, where m is lambda or mu.
+/// Numbers that are positive exactly if all eigenvalues other than 1, lambda and mu have a modulus below m,
+/// where m is lambda or mu.
 fn gaps(point: &Point, m: Centred<1>) -> Vec<(&'static str, Centred<1>)> {
     let (n, plane) = (point.plane.valence, &point.plane);
     let (mu, f3, g3, h) = (plane.mu(), point.f3, point.stencil.g3, point.h);
@@ -133,9 +134,9 @@ mod tests {
     use num_bigint::BigInt;
     use num_rational::BigRational;
 
-    /// The second ring adds 1/8, 1/16, 1/32 and 1/64 to every block. Its part of the block has entries of degree at most 2 in w, so that the
-    /// coefficients of its characteristic polynomial are determined by their values at the 17 roots of unity of order 17 (of which
-    /// conjugate ones need no second look).
+    /// The second ring adds 1/8, 1/16, 1/32 and 1/64 to every block. Its part of the block has entries of
+    /// degree at most 2 in w, so that the coefficients of its characteristic polynomial are determined by
+    /// their values at the 17 roots of unity of order 17 (of which conjugate ones need no second look).
     #[test]
     fn the_second_ring_has_its_four_eigenvalues_in_every_block() {
         for valence in [3, 4, 5, 6, 7, 8, 17] {

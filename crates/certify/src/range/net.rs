@@ -9,8 +9,8 @@ use eigenring_spectral::{Annulus, Block, Matrix, fourier_block};
 
 /// The net of the eigenvector of lambda in block 1, with `E_0 = (1, 0)`; `None` if it cannot be enclosed.
 ///
-/// `E = 1` and, from the face rule, `F = 2 f2 cos(pi/N)/(lambda - f3)` in the real unknowns; then ring by ring
-/// `(lambda - S_rr) v_r = sum_q S_rq v_q` over the rings q before r.
+/// `E = 1` and, from the face rule, `F = 2 f2 cos(pi/N)/(lambda - f3)` in the real unknowns; then ring by
+/// ring `(lambda - S_rr) v_r = sum_q S_rq v_q` over the rings q before r.
 pub fn characteristic(point: &Point) -> Option<PlaneNet<Centred<1>>> {
     let plane = &point.plane;
     let scheme: Scheme<Centred<1>> = point.stencil.weights.scheme("", plane.valence).ok()?;
@@ -54,7 +54,8 @@ pub fn characteristic(point: &Point) -> Option<PlaneNet<Centred<1>>> {
     PlaneNet::new(annulus, 1, true, [x, y]).ok()
 }
 
-/// Gaussian elimination, pivots by their size at the centre; `None` if a pivot may be zero. Meant for the few unknowns of a ring.
+/// Gaussian elimination, pivots by their size at the centre; `None` if a pivot may be zero. Meant for the few
+/// unknowns of a ring.
 fn eliminate<S: Enclose>(matrix: Matrix<S>, right: Vec<S>) -> Option<Vec<S>> {
     let size = right.len();
     let mut rows: Vec<Vec<S>> = (0..size)

@@ -24,9 +24,9 @@ pub struct Point {
 
 /// The branches of s that may hold somewhere in an interval of lambda: at least one, and all that do.
 ///
-/// The largest of the terms counts, so a term is left out if it is certainly smaller than another on the whole interval. The addition
-/// is its full value where a term beside 1 is at least 1, falls linearly while the line is between the full value and zero, and is
-/// zero after that.
+/// The largest of the terms counts, so a term is left out if it is certainly smaller than another on the
+/// whole interval. The addition is its full value where a term beside 1 is at least 1, falls linearly while
+/// the line is between the full value and zero, and is zero after that.
 pub fn branches(relaxation: &Relaxation, valence: usize, lambda: Interval) -> Vec<Branch> {
     let value = |term, addition| relaxation.s_on_branch(Branch { term, addition }, lambda);
     let terms: &[Term] = if valence < 5 {
@@ -64,7 +64,8 @@ pub fn branches(relaxation: &Relaxation, valence: usize, lambda: Interval) -> Ve
     branches
 }
 
-/// The schemes on a tile, one for each branch of s that may hold there. `None` if a knot lies inside the tile.
+/// The schemes on a tile, one for each branch of s that may hold there. `None` if a knot lies inside the
+/// tile.
 pub(crate) fn points(problem: &Problem, ends: [f64; 2]) -> Option<Vec<Point>> {
     let range = Interval::new(ends[0], ends[1])?;
     let lambda = Centred::<1>::parameter(range, 0);

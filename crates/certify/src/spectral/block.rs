@@ -1,4 +1,5 @@
-//! Fourier blocks of interval matrices, without the constant vector and what no patch depends on, and their components.
+//! Fourier blocks of interval matrices, without the constant vector and what no patch depends on, and their
+//! components.
 
 use super::MAX_BLOCK;
 use super::graph::components;
@@ -14,7 +15,8 @@ pub struct Block {
     pub index: usize,
     /// How the unknowns of [`Block::matrix`] stand for the points.
     pub place: Place,
-    /// The matrix to be analysed: of the unknowns that patches depend on, for index 0 without the constant vector.
+    /// The matrix to be analysed: of the unknowns that patches depend on, for index 0 without the constant
+    /// vector.
     pub matrix: Matrix<Interval>,
     /// The constant vector, where it was divided out.
     pub divided: Option<Divided>,
@@ -48,8 +50,8 @@ pub struct Divided {
 pub enum Place {
     /// The real unknowns of [`FourierNet`](eigenring_scheme::FourierNet) with mirror symmetry.
     Real,
-    /// Real parts of the values, then imaginary parts: for rules without mirror symmetry. Each eigenvalue of the block comes
-    /// with its conjugate, the eigenvalue of the conjugate block.
+    /// Real parts of the values, then imaginary parts: for rules without mirror symmetry. Each eigenvalue of
+    /// the block comes with its conjugate, the eigenvalue of the conjugate block.
     Parts,
     /// The points themselves: for rules that differ from sector to sector.
     Points,
@@ -115,8 +117,8 @@ impl Block {
         })
     }
 
-    /// Whether the unknowns are real ones under mirror symmetry, so that a real eigenvalue is one of the block and not one
-    /// of the doubled system.
+    /// Whether the unknowns are real ones under mirror symmetry, so that a real eigenvalue is one of the
+    /// block and not one of the doubled system.
     pub fn is_real(&self) -> bool {
         self.place == Place::Real
     }

@@ -5,8 +5,9 @@ use crate::linear::{Eigenpair, Eigenvalue, eigenpair, lift, norm, pair, quotient
 use eigenring_spectral::Matrix;
 use serde::{Deserialize, Serialize};
 
-/// How a component comes apart: approximations of simple real eigenpairs to divide out, each a pair of the matrix that the
-/// ones before have left, and a bound for what remains. Anything may be wrong here; it is not believed.
+/// How a component comes apart: approximations of simple real eigenpairs to divide out, each a pair of the
+/// matrix that the ones before have left, and a bound for what remains. Anything may be wrong here; it is not
+/// believed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Peel {

@@ -1,9 +1,11 @@
 //! Which unknowns depend on which.
 
-/// The strongly connected components of the graph on `0..size` with the edges `edge(i, j)` ("i reads j"), in an order in
-/// which each reads only itself and earlier ones; and for each component which others it reads, directly or not.
+/// The strongly connected components of the graph on `0..size` with the edges `edge(i, j)` ("i reads j"), in
+/// an order in which each reads only itself and earlier ones; and for each component which others it reads,
+/// directly or not.
 ///
-/// By the transitive closure (Warshall 1962) on rows of bits: simple, and fast enough for blocks of some hundred unknowns.
+/// By the transitive closure (Warshall 1962) on rows of bits: simple, and fast enough for blocks of some
+/// hundred unknowns.
 pub fn components(size: usize, edge: impl Fn(usize, usize) -> bool) -> (Vec<Vec<usize>>, Vec<Vec<usize>>) {
     let words = size.div_ceil(64);
     let bit = |row: &[u64], j: usize| row[j / 64] >> (j % 64) & 1 == 1;

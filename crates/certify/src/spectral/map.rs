@@ -10,13 +10,14 @@ use eigenring_spectral::Matrix;
 /// A net in the complex plane: real and imaginary part of each point of the numbering.
 pub type Net = Vec<Complex<Interval>>;
 
-/// The eigenvector of a simple real eigenvalue on all unknowns of its block, before the constant vector is put back: on
-/// block 0 it is one modulo constants, 0 at the unknown that was divided out. Unknowns that no patch depends on are 0. `None` if
-/// another component of the block that depends on it was not proven to be free of the eigenvalue.
+/// The eigenvector of a simple real eigenvalue on all unknowns of its block, before the constant vector is
+/// put back: on block 0 it is one modulo constants, 0 at the unknown that was divided out. Unknowns that no
+/// patch depends on are 0. `None` if another component of the block that depends on it was not proven to be
+/// free of the eigenvalue.
 ///
-/// On components that do not read the entry's own one the vector is zero; on those that do, in their order, it is the
-/// solution of `(value - S_dd) v_d = sum_e S_de v_e` over the components e before d. `value` may be a sharper enclosure of the
-/// entry's eigenvalue.
+/// On components that do not read the entry's own one the vector is zero; on those that do, in their order,
+/// it is the solution of `(value - S_dd) v_d = sum_e S_de v_e` over the components e before d. `value` may be
+/// a sharper enclosure of the entry's eigenvalue.
 pub fn modulo_constants(block: &Block, entry: &Entry, value: Interval) -> Option<Vec<Interval>> {
     if block.place == Place::Parts {
         return None;
@@ -58,8 +59,8 @@ fn on_kept(block: &Block, entry: &Entry, value: Interval) -> Option<Vec<Interval
     Some(vector)
 }
 
-/// The eigenvector of a simple real eigenvalue on all unknowns of its block; see [`modulo_constants`]. `None` also if the
-/// constant vector's eigenvalue 1 was not proven to be another one.
+/// The eigenvector of a simple real eigenvalue on all unknowns of its block; see [`modulo_constants`]. `None`
+/// also if the constant vector's eigenvalue 1 was not proven to be another one.
 pub fn eigenvector(block: &Block, entry: &Entry, value: Interval) -> Option<Vec<Interval>> {
     let mut vector = modulo_constants(block, entry, value)?;
     let Some(divided) = &block.divided else {
@@ -81,8 +82,9 @@ pub fn eigenvector(block: &Block, entry: &Entry, value: Interval) -> Option<Vec<
     Some(vector)
 }
 
-/// Whether the surface sees an eigenvector: whether its control points on the annulus are certainly not all zero, or not all equal
-/// where constants do not count. B-splines are linearly independent, so that its ring of patches is then not zero.
+/// Whether the surface sees an eigenvector: whether its control points on the annulus are certainly not all
+/// zero, or not all equal where constants do not count. B-splines are linearly independent, so that its ring
+/// of patches is then not zero.
 pub fn is_visible(block: &Block, entry: &Entry) -> bool {
     let Some(vector) = modulo_constants(block, entry, entry.value.re) else {
         return false;
@@ -104,9 +106,9 @@ pub fn is_visible(block: &Block, entry: &Entry) -> bool {
     }
 }
 
-/// The net of real unknowns of Fourier index `index`: points of a spoke have the value r, points of the diagonal
-/// `w^{k/2} r`, pairs `w^{k/2} (p + i q)` and `w^{k/2} (p - i q)`, each times `w^{k (sector - turn/2)}`. With `turn = 1` the
-/// first point around a face is real.
+/// The net of real unknowns of Fourier index `index`: points of a spoke have the value r, points of the
+/// diagonal `w^{k/2} r`, pairs `w^{k/2} (p + i q)` and `w^{k/2} (p - i q)`, each times `w^{k (sector -
+/// turn/2)}`. With `turn = 1` the first point around a face is real.
 pub fn net<S: Scalar + Copy>(numbering: Numbering, index: usize, unknowns: &[S], turn: usize) -> Vec<Complex<S>> {
     let n = numbering.fan.sectors();
     let first = unknowns.len() - numbering.sector_points();
@@ -141,8 +143,8 @@ pub fn net<S: Scalar + Copy>(numbering: Numbering, index: usize, unknowns: &[S],
 }
 
 impl Spectrum {
-    /// The net of an entry on the numbering of the annulus, with the given enclosure of its eigenvalue: the first point of
-    /// ring 1 is real, and positive where it is not zero.
+    /// The net of an entry on the numbering of the annulus, with the given enclosure of its eigenvalue: the
+    /// first point of ring 1 is real, and positive where it is not zero.
     pub fn net(&self, entry: &Entry, value: Interval) -> Option<Net> {
         let block = self.block(entry.index)?;
         let unknowns = eigenvector(block, entry, value)?;

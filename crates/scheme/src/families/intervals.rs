@@ -1,9 +1,10 @@
 //! Bicubic rules with knot intervals: around a vertex of valence 4, and around a face that is never split.
 //!
-//! Where four sectors meet, intervals are those of two knot vectors, and the rules are tensor products of the univariate ones
-//! (Sederberg, Zheng, Sewell and Sabin 1998, Eqs. 1 to 3). After a level the first two edges of a spoke have the same interval, so that the
-//! rules change for two levels and are the same from then on. Around the n-gon of HNUSS (Li, Wei and Zhang 2019, section 4.3)
-//! points are doubled along the spokes, and the corners of the n-gon have the rule
+//! Where four sectors meet, intervals are those of two knot vectors, and the rules are tensor products of the
+//! univariate ones (Sederberg, Zheng, Sewell and Sabin 1998, Eqs. 1 to 3). After a level the first two edges
+//! of a spoke have the same interval, so that the rules change for two levels and are the same from then on.
+//! Around the n-gon of HNUSS (Li, Wei and Zhang 2019, section 4.3) points are doubled along the spokes, and
+//! the corners of the n-gon have the rule
 //!
 //! ```text
 //! P_i'    = (P_i + C)/2 + alpha_i (-n P_i + sum_j (1 + 2 cos(2 pi (j-i)/n)) P_j),     C = sum_i beta_i P_i
@@ -59,10 +60,12 @@ pub fn with_intervals<S: Scalar>(name: &str, corner: &Corner) -> Result<Scheme<S
 /// The level of the intervals of each spoke.
 type Rules<S> = fn(&[Vec<f64>]) -> Result<Level<S>, Error>;
 
-/// Levels until the first eight edges of every spoke have one interval: more than any analysis around the centre reads.
+/// Levels until the first eight edges of every spoke have one interval: more than any analysis around the
+/// centre reads.
 const LEADING: usize = 3;
 
-/// The intervals of a spoke after a level, in units twice as small: each edge twice, except that one without width may stay whole.
+/// The intervals of a spoke after a level, in units twice as small: each edge twice, except that one without
+/// width may stay whole.
 fn halved(list: &[f64], splits_zeros: bool) -> Vec<f64> {
     let twice = |&interval: &f64| {
         if interval == 0.0 && !splits_zeros {

@@ -13,8 +13,8 @@ pub use tension::{MAX_ORDER, tension};
 
 use crate::{Centre, Corner, Error, Level, Scalar, Scheme};
 
-/// Catmull-Clark around any vertex: closed, boundary, crease, dart, corner or cusp, of uniform knot intervals, or with knot
-/// intervals where four sectors meet.
+/// Catmull-Clark around any vertex: closed, boundary, crease, dart, corner or cusp, of uniform knot
+/// intervals, or with knot intervals where four sectors meet.
 ///
 /// # Errors
 /// [`Error::Unsupported`] for other corners.
@@ -47,8 +47,8 @@ pub fn catmull_clark_around<S: Scalar>(corner: &Corner) -> Result<Scheme<S>, Err
 /// The tension scheme of an even order around any vertex.
 ///
 /// # Errors
-/// Those of [`tension`]; [`Error::Unsupported`] for odd orders beside boundaries and creases, for knot intervals, and for creases that
-/// act in more steps than there are.
+/// Those of [`tension`]; [`Error::Unsupported`] for odd orders beside boundaries and creases, for knot
+/// intervals, and for creases that act in more steps than there are.
 pub fn tension_around<S: Scalar>(corner: &Corner, order: usize, u0: f64) -> Result<Scheme<S>, Error> {
     let sectors = corner.sectors().sectors();
     // a valence of 4 stands for fans of any size in the check of order and tension

@@ -1,19 +1,21 @@
 //! The generalised tension scheme of arbitrary order.
 //!
 //! Fang, Ma and Wang, *A generalized surface subdivision scheme of arbitrary order with a tension parameter*,
-//! Computer-Aided Design. Order k gives surfaces of degree k-1 on regular nets: uniform B-splines at tension `u = 1`,
-//! trigonometric ones at `u = cos a`, hyperbolic ones at `u = cosh a`. The tension goes from level to level by the half-angle
-//! formula `u' = sqrt((1+u)/2)`, so the limit level is that of `u = 1`.
+//! Computer-Aided Design. Order k gives surfaces of degree k-1 on regular nets: uniform B-splines at tension
+//! `u = 1`, trigonometric ones at `u = cos a`, hyperbolic ones at `u = cosh a`. The tension goes from level
+//! to level by the half-angle formula `u' = sqrt((1+u)/2)`, so the limit level is that of `u = 1`.
 //!
-//! **Even orders** (around a vertex): bilinear refinement, one smoothing that knows the tension, `(k-4)/2` uniform ones. At a
-//! vertex of valence N the smoothings keep `((N-4)(1+2u) + N u^2) / (N (1+u)^2)` and `(N-3)/N`, and take
-//! `8u / (N^2 (1+u)^2)` and `2/N^2` of **each** edge neighbour, `4 / (N^2 (1+u)^2)` and `1/N^2` of **each** face neighbour.
+//! **Even orders** (around a vertex): bilinear refinement, one smoothing that knows the tension, `(k-4)/2`
+//! uniform ones. At a vertex of valence N the smoothings keep `((N-4)(1+2u) + N u^2) / (N (1+u)^2)` and
+//! `(N-3)/N`, and take `8u / (N^2 (1+u)^2)` and `2/N^2` of **each** edge neighbour, `4 / (N^2 (1+u)^2)` and
+//! `1/N^2` of **each** face neighbour.
 //!
-//! **Odd orders** (around a face of valence N): corner cutting in which the N-gon's new corner keeps
-//! `(N u^2 + (2N-4) u + 1) / (N (1+u)^2)` and takes `(1+2u) / (N (1+u)^2)` of each of its two neighbours in the face and
-//! `1 / (N (1+u)^2)` of each other corner; then `(k-3)/2` uniform smoothings. The published smoothing mask 1/4, 1/8, 1/16 has
-//! no unique opposite corner beside an N-gon; here a point becomes the mean of the centroids of its four faces, with the
-//! N-gon's true centroid, which is the mask where all faces are quadrilaterals.
+//! **Odd orders** (around a face of valence N): corner cutting in which the N-gon's new corner keeps `(N u^2
+//! + (2N-4) u + 1) / (N (1+u)^2)` and takes `(1+2u) / (N (1+u)^2)` of each of its two neighbours in the face
+//! and `1 / (N (1+u)^2)` of each other corner; then `(k-3)/2` uniform smoothings. The published smoothing
+//! mask 1/4, 1/8, 1/16 has no unique opposite corner beside an N-gon; here a point becomes the mean of the
+//! centroids of its four faces, with the N-gon's true centroid, which is the mask where all faces are
+//! quadrilaterals.
 
 use super::doo_sabin::CORNER;
 use crate::{Error, Fan, Lattice, Level, Line, Pass, Same, Scalar, Scheme, Site, Stencil};
@@ -21,14 +23,16 @@ use crate::{Error, Fan, Lattice, Level, Line, Pass, Same, Scalar, Scheme, Site, 
 /// The largest order, that of curves: the local matrix of order k has about `N k^2 / 4` rows.
 pub use eigenring_spline::curve::MAX_ORDER;
 
-/// Levels that are told apart from the limit level: `u - 1` shrinks by 4 a level, and u is at most the largest double.
+/// Levels that are told apart from the limit level: `u - 1` shrinks by 4 a level, and u is at most the
+/// largest double.
 const MAX_LEADING: usize = 600;
 
-/// The scheme of order `order` with initial tension `u0`, around a vertex (even orders) or a face (odd orders).
+/// The scheme of order `order` with initial tension `u0`, around a vertex (even orders) or a face (odd
+/// orders).
 ///
 /// # Errors
-/// [`Error::Valence`] below 3, [`Error::Order`] unless 3 <= order <= [`MAX_ORDER`], [`Error::Tension`] unless u0 is finite
-/// and above -1.
+/// [`Error::Valence`] below 3, [`Error::Order`] unless 3 <= order <= [`MAX_ORDER`], [`Error::Tension`] unless
+/// u0 is finite and above -1.
 pub fn tension<S: Scalar>(valence: usize, order: usize, u0: f64) -> Result<Scheme<S>, Error> {
     if valence < 3 {
         return Err(Error::Valence { valence });
@@ -64,7 +68,8 @@ pub(super) fn tensions<S: Scalar>(u0: f64) -> Vec<S> {
     let (mut tensions, mut rough, mut u) = (Vec::new(), u0, S::exact(u0));
     while rough != 1.0 && tensions.len() < MAX_LEADING {
         tensions.push(u.clone());
-        // the half-angle step has 1 as its attractive fixed point and reaches it, to rounding, in finitely many steps
+        // the half-angle step has 1 as its attractive fixed point and reaches it, to rounding, in finitely
+        // many steps
         let next = ((1.0 + rough) / 2.0).sqrt();
         if next == rough {
             break;
@@ -75,8 +80,8 @@ pub(super) fn tensions<S: Scalar>(u0: f64) -> Vec<S> {
     tensions
 }
 
-/// The weights of smoothing `step`, 0 for the one that knows the tension: side and middle of the line, then the centre's own
-/// weight, that of each edge neighbour and that of each face neighbour.
+/// The weights of smoothing `step`, 0 for the one that knows the tension: side and middle of the line, then
+/// the centre's own weight, that of each edge neighbour and that of each face neighbour.
 pub(super) fn smoothing_names(step: usize, n: i64) -> [Name; 5] {
     if step == 0 {
         return [Name::Side, Name::Middle, Name::Own, Name::Edge, Name::Face];
@@ -95,7 +100,8 @@ pub(super) enum Name {
     Middle,
     /// `(1+2u) / (2 (1+u))`: the near point of corner cutting.
     Near,
-    /// Of the first smoothing at a vertex: its own weight, that of each edge neighbour, of each face neighbour.
+    /// Of the first smoothing at a vertex: its own weight, that of each edge neighbour, of each face
+    /// neighbour.
     Own,
     Edge,
     Face,

@@ -1,29 +1,33 @@
 //! The feasible part of a plane.
 //!
-//! Ma, Wang and Ma (2023, section 3.2) admit a stencil if all its weights are non-negative, if every eigenvalue of the
-//! one-ring matrix other than 1, lambda (blocks 1, N-1) and mu (blocks 0, 2, N-2) has a modulus below mu, and if the angle
-//! `theta` of the natural configuration at F, between V and E, is at most `pi/2 - pi/(2N)`. Their bounds are Eqs. 49-52;
-//! here each constraint is solved for f2 or for f3, in the notation of [`Plane`]:
+//! Ma, Wang and Ma (2023, section 3.2) admit a stencil if all its weights are non-negative, if every
+//! eigenvalue of the one-ring matrix other than 1, lambda (blocks 1, N-1) and mu (blocks 0, 2, N-2) has a
+//! modulus below mu, and if the angle `theta` of the natural configuration at F, between V and E, is at most
+//! `pi/2 - pi/(2N)`. Their bounds are Eqs. 49-52; here each constraint is solved for f2 or for f3, in the
+//! notation of [`Plane`]:
 //!
-//! **f3 alone** (N >= 5). `g3 < mu` and `h > 0` hold for `0 <= f3 < C/D`, beyond which nothing is feasible; up to there
+//! **f3 alone** (N >= 5). `g3 < mu` and `h > 0` hold for `0 <= f3 < C/D`, beyond which nothing is feasible;
+//! up to there
 //!
 //! * `f3 >= 0`, and `f1 >= 0` against theta: `f3 >= (lambda - cos(pi/N)) / (1 - cos(pi/N))`;
 //! * `d2 >= 0`: f3 is at most the smaller root of
 //!   `(1-sg) f3^2 - lambda (1 + B sg - sg^2) f3 + sg lambda^2 (c1 sg - c2)`;
-//! * the last block, `(m+f3)(m+g3) + h m (1+c_K) >= 0` with `K = floor(N/2)` and `m = (1-kappa) mu`: f3 is at most the
-//!   positive root of a quadratic, for even N (`c_K = -1`) of its linear factor: `f3 <= (m C + mu A)/(m D + mu B)`.
-//!   The paper uses the even formula at every N: [`Bounds::Paper`].
+//! * the last block, `(m+f3)(m+g3) + h m (1+c_K) >= 0` with `K = floor(N/2)` and `m = (1-kappa) mu`: f3 is at
+//!   most the positive root of a quadratic, for even N (`c_K = -1`) of its linear factor: `f3 <= (m C + mu
+//!   A)/(m D + mu B)`. The paper uses the even formula at every N: [`Bounds::Paper`].
 //!
-//! **f2 at one f3.** `f1 >= 0` bounds f2 above, theta and `d1 >= 0` bound it below; `z0 <= m` keeps it between the roots of
-//! a quadratic, `z0 >= -m` and `1 - alpha - beta >= 0` outside the roots of two others. So f2 lies in one interval, or in
-//! two with a gap between (at phi = 6 this happens only at N = 3 and lambda below about 0.52). `beta > 0` is implied.
+//! **f2 at one f3.** `f1 >= 0` bounds f2 above, theta and `d1 >= 0` bound it below; `z0 <= m` keeps it
+//! between the roots of a quadratic, `z0 >= -m` and `1 - alpha - beta >= 0` outside the roots of two others.
+//! So f2 lies in one interval, or in two with a gap between (at phi = 6 this happens only at N = 3 and lambda
+//! below about 0.52). `beta > 0` is implied.
 //!
-//! **N = 3**: `g3 = lambda mu/f3`, and `h >= 0` demands `mu <= f3 <= lambda`. The curve `z0 = m` meets that of theta at
-//! the lowest feasible f3. Towards `f3 = lambda` the intervals shrink to points that are not feasible themselves.
-//! **N = 4**: `f3 = g3 = mu`; the domain is an interval of f2.
+//! **N = 3**: `g3 = lambda mu/f3`, and `h >= 0` demands `mu <= f3 <= lambda`. The curve `z0 = m` meets that
+//! of theta at the lowest feasible f3. Towards `f3 = lambda` the intervals shrink to points that are not
+//! feasible themselves. **N = 4**: `f3 = g3 = mu`; the domain is an interval of f2.
 //!
 //! The inequalities with mu are strict in the paper. At many lambda the optimum lies on the boundary, where
-//! they hold with equality; the relative margin `kappa` keeps stencils strictly inside. `kappa = 0` is the closure.
+//! they hold with equality; the relative margin `kappa` keeps stencils strictly inside. `kappa = 0` is the
+//! closure.
 
 mod check;
 mod constraint;
@@ -64,8 +68,8 @@ pub struct Domain {
 pub struct F3End {
     /// Where it is.
     pub f3: f64,
-    /// The constraint that is active on the whole segment at this f3, or `None` if the domain ends there in a point, where
-    /// a lower and an upper curve of f2 meet.
+    /// The constraint that is active on the whole segment at this f3, or `None` if the domain ends there in a
+    /// point, where a lower and an upper curve of f2 meet.
     pub edge: Option<Constraint>,
 }
 
@@ -88,15 +92,16 @@ pub struct F2Interval {
 }
 
 impl Domain {
-    /// Rows of f3 on which a domain that is not feasible up to its f3 bounds is searched. Empirical: at phi = 6 only N = 3
-    /// needs the search, and there every row above the lowest feasible one is feasible.
+    /// Rows of f3 on which a domain that is not feasible up to its f3 bounds is searched. Empirical: at phi =
+    /// 6 only N = 3 needs the search, and there every row above the lowest feasible one is feasible.
     const ROWS: u32 = 256;
 
     /// The domain with a relative margin `kappa` to the eigenvalue bounds.
     ///
     /// # Errors
-    /// [`Error::Margin`] unless 0 <= kappa < 1, [`Error::Phi`] unless phi is finite and non-negative, [`Error::Infeasible`]
-    /// if no stencil is admissible (s below the rule of [`Relaxation`](super::Relaxation)).
+    /// [`Error::Margin`] unless 0 <= kappa < 1, [`Error::Phi`] unless phi is finite and non-negative,
+    /// [`Error::Infeasible`] if no stencil is admissible (s below the rule of
+    /// [`Relaxation`](super::Relaxation)).
     pub fn new(plane: Plane<f64>, bounds: Bounds, margin: f64) -> Result<Self, Error> {
         if !(0.0..1.0).contains(&margin) {
             return Err(Error::Margin { margin });
@@ -132,7 +137,8 @@ impl Domain {
         self.margin
     }
 
-    /// The range of f3, lower end first. Every f3 between has feasible f2 at phi = 6; at other phi rows may be empty.
+    /// The range of f3, lower end first. Every f3 between has feasible f2 at phi = 6; at other phi rows may
+    /// be empty.
     pub fn f3_range(&self) -> [F3End; 2] {
         self.f3
     }
@@ -229,15 +235,16 @@ impl Domain {
         Ok(())
     }
 
-    /// The bounds on f3 from the blocks before the last, `p = g3 f3` being every block's determinant. They are implied by
-    /// the others at kappa = 0, and at any kappa that is small against `1 - s lambda`.
+    /// The bounds on f3 from the blocks before the last, `p = g3 f3` being every block's determinant. They
+    /// are implied by the others at kappa = 0, and at any kappa that is small against `1 - s lambda`.
     fn inner_blocks_hold(&self, row: &Row<f64>, f3: f64) -> bool {
         let (mu, m, p) = (self.plane.mu(), self.modulus_bound(), row.g3 * f3);
         match self.plane.valence {
             3 => true,
             4 => p <= m * self.plane.lambda,
             5 => p <= m * mu,
-            // block 3 has the largest trace; with the last block's bound this is |eigenvalues| <= m for all between
+            // block 3 has the largest trace; with the last block's bound this is |eigenvalues| <= m for all
+            // between
             _ => p <= m * m && m * m - (row.g3 + f3 + row.h * (1.0 + self.plane.cosine(3))) * m + p >= 0.0,
         }
     }
@@ -292,7 +299,8 @@ impl Domain {
     }
 }
 
-/// The smallest positive root of `a x^2 + b x + c`; negative or not a number if there is none, as for `c < 0`.
+/// The smallest positive root of `a x^2 + b x + c`; negative or not a number if there is none, as for `c <
+/// 0`.
 fn smallest_positive_root(a: f64, b: f64, c: f64) -> f64 {
     let radical = (b * b - 4.0 * a * c).sqrt();
     // of the two equal forms the one without cancellation
@@ -303,7 +311,8 @@ fn smallest_positive_root(a: f64, b: f64, c: f64) -> f64 {
     }
 }
 
-/// Neighbouring numbers, the first of them `feasible` and the second not, between two numbers with these properties.
+/// Neighbouring numbers, the first of them `feasible` and the second not, between two numbers with these
+/// properties.
 fn bisect(mut inside: f64, mut outside: f64, feasible: impl Fn(f64) -> bool) -> (f64, f64) {
     loop {
         let middle = 0.5 * (inside + outside);

@@ -1,7 +1,7 @@
 //! The literature's featured lambda values, to compare with.
 //!
-//! Table 1 of Ma, Wang and Ma, ACM TOG 42(6) 209, 2023, <https://doi.org/10.1145/3618400>, to its printed digits. The rows
-//! N = 7, 11, 13 and 18 are not in the text this was taken from.
+//! Table 1 of Ma, Wang and Ma, ACM TOG 42(6) 209, 2023, <https://doi.org/10.1145/3618400>, to its printed
+//! digits. The rows N = 7, 11, 13 and 18 are not in the text this was taken from.
 
 use super::LambdaKnots;
 
@@ -33,7 +33,8 @@ pub struct PaperRow {
     pub lambda_d: f64,
     /// The globally optimal lambda.
     pub lambda_c_star: f64,
-    /// End of the recommended region: beyond it 2-ring quadrilaterals of the natural configuration overlap or are concave.
+    /// End of the recommended region: beyond it 2-ring quadrilaterals of the natural configuration overlap or
+    /// are concave.
     pub lambda_r2: f64,
 }
 

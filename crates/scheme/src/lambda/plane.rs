@@ -2,8 +2,8 @@
 
 use crate::{Error, OneRing, Scalar};
 
-/// All stencils with given valence, subdominant eigenvalue `lambda` and `mu = s lambda^2`: a plane with coordinates
-/// (f2, f3).
+/// All stencils with given valence, subdominant eigenvalue `lambda` and `mu = s lambda^2`: a plane with
+/// coordinates (f2, f3).
 ///
 /// In the notation of Ma, Wang and Ma (2023), `c_k = cos(2 pi k / N)`, `sg = s lambda` and
 ///
@@ -14,9 +14,10 @@ use crate::{Error, OneRing, Scalar};
 /// beta = h mu (1-c2) / (2 f2 + phi h f3/f2 - A0),  A0 = g3 + 2h - mu + phi (f3-mu)      (their Eq. 27)
 /// ```
 ///
-/// At N = 3 these formulas hold as they stand (they reduce to g3 = lambda mu / f3: block 2 is the conjugate of block 1 and
-/// mu is its other eigenvalue). At N = 4 block 2 is diagonal with entries g3 and f3, so both must be mu, and
-/// g3 = mu, h = (1-sg)(lambda-mu) are the continuation of the formulas to f3 = mu; only f2 is free.
+/// At N = 3 these formulas hold as they stand (they reduce to g3 = lambda mu / f3: block 2 is the conjugate
+/// of block 1 and mu is its other eigenvalue). At N = 4 block 2 is diagonal with entries g3 and f3, so both
+/// must be mu, and g3 = mu, h = (1-sg)(lambda-mu) are the continuation of the formulas to f3 = mu; only f2 is
+/// free.
 #[derive(Clone, Copy, Debug)]
 pub struct Plane<S> {
     /// The valence N, at least 3.
@@ -127,7 +128,8 @@ impl<S: Scalar + Copy> Plane<S> {
         }
     }
 
-    /// The ratio `2 f2 cos(pi/N) / (lambda - f3)` of the distances of F and E from the centre in the natural configuration.
+    /// The ratio `2 f2 cos(pi/N) / (lambda - f3)` of the distances of F and E from the centre in the natural
+    /// configuration.
     pub fn corner_radius(&self, f2: S, f3: S) -> S {
         S::ratio(2, 1) * f2 * self.cos_half_sector() / (self.lambda - f3)
     }

@@ -1,8 +1,8 @@
 //! Which s belongs to a lambda.
 //!
-//! Bounded curvature is `mu = lambda^2`, i.e. `s = mu / lambda^2 = 1`. Below a valence's `lambda_l` no admissible stencil
-//! has it, and Ma, Wang and Ma (2023, Eq. 10) relax it to `s = s_l(lambda) + ds`, with the smallest possible `s_l`. With
-//! `c_k = cos(2 pi k / N)`, and the last two terms only for N >= 5,
+//! Bounded curvature is `mu = lambda^2`, i.e. `s = mu / lambda^2 = 1`. Below a valence's `lambda_l` no
+//! admissible stencil has it, and Ma, Wang and Ma (2023, Eq. 10) relax it to `s = s_l(lambda) + ds`, with the
+//! smallest possible `s_l`. With `c_k = cos(2 pi k / N)`, and the last two terms only for N >= 5,
 //!
 //! ```text
 //! s_l = max( 1,  1/(8 lambda^2),  c2/(c1 lambda),  (1+c2)/((1+2c1-c2) lambda) )
@@ -12,14 +12,15 @@
 //! * `c2/(c1 lambda)`: `d2 >= 0` at `f3 = 0`;
 //! * `(1+c2)/((1+2c1-c2) lambda)`: `g3 >= -mu` at `f3 = 0`, the last block's eigenvalue for even N.
 //!
-//! Each term falls with lambda, so each reaches 1 once; `lambda_l` is the largest of these lambdas (Eqs. 23, 24). The
-//! addition `ds` keeps mu off the resonance with the outer rings and the last block off its bound. The paper gives it as
-//! 1e-3 up to `lambda_l` and 0 from `lambda_l + 1e-2` on, without saying what lies between; here it falls linearly.
+//! Each term falls with lambda, so each reaches 1 once; `lambda_l` is the largest of these lambdas (Eqs. 23,
+//! 24). The addition `ds` keeps mu off the resonance with the outer rings and the last block off its bound.
+//! The paper gives it as 1e-3 up to `lambda_l` and 0 from `lambda_l + 1e-2` on, without saying what lies
+//! between; here it falls linearly.
 //!
-//! s is a continuous function of lambda with kinks where the largest term changes and at both ends of the ramp. Between
-//! kinks it is a [`Branch`], a smooth formula that any [`Scalar`] can evaluate. `mu < lambda`, which a
-//! [`Plane`] demands, is met for every lambda of [0.15, 0.9] up to N = 256 (tested); where it is not, `Plane::new` says
-//! so.
+//! s is a continuous function of lambda with kinks where the largest term changes and at both ends of the
+//! ramp. Between kinks it is a [`Branch`], a smooth formula that any [`Scalar`] can evaluate. `mu < lambda`,
+//! which a [`Plane`] demands, is met for every lambda of [0.15, 0.9] up to N = 256 (tested); where it is not,
+//! `Plane::new` says so.
 
 use super::Plane;
 use crate::{Error, Scalar};
@@ -64,7 +65,8 @@ pub struct Branch {
 }
 
 impl Relaxation {
-    /// `1 / ds0`, where `ds0 = 1e-3` is the addition to s up to `lambda_l`: the paper's empirical choice (section 3.3.2).
+    /// `1 / ds0`, where `ds0 = 1e-3` is the addition to s up to `lambda_l`: the paper's empirical choice
+    /// (section 3.3.2).
     pub const ADDITION_INVERSE: i64 = 1000;
     /// The inverse of the ramp's width 1e-2, over which the addition falls to zero (section 3.3.2).
     pub const RAMP_INVERSE: i64 = 100;
@@ -110,8 +112,8 @@ impl Relaxation {
     /// The plane of stencils at lambda and the s that belongs to it.
     ///
     /// # Errors
-    /// [`Error::Lambda`] unless 1/8 < lambda < 1, [`Error::RelaxationRule`] where the rule's mu reaches lambda, as
-    /// it does at large valences.
+    /// [`Error::Lambda`] unless 1/8 < lambda < 1, [`Error::RelaxationRule`] where the rule's mu reaches
+    /// lambda, as it does at large valences.
     pub fn plane(&self, lambda: f64) -> Result<Plane<f64>, Error> {
         let (valence, s) = (self.valence, self.s(lambda)?);
         if s * lambda < 1.0 {
@@ -120,8 +122,8 @@ impl Relaxation {
         Err(Error::RelaxationRule { valence, lambda, s })
     }
 
-    /// The smooth piece that is valid at lambda; at a kink the one on the right for terms, on the left for the addition
-    /// at `lambda_l` (the two agree there).
+    /// The smooth piece that is valid at lambda; at a kink the one on the right for terms, on the left for
+    /// the addition at `lambda_l` (the two agree there).
     ///
     /// # Errors
     /// [`Error::Lambda`] unless 1/8 < lambda < 1.

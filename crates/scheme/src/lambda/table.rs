@@ -1,9 +1,10 @@
 //! The embedded spline stencils: f2 and f3 as functions of lambda, for each tabulated valence.
 //!
-//! Evaluation is Eq. 22 of Ma, Wang and Ma (2023), `f_i(lambda) = b(lambda)^T C_i` with the cubic basis on [`LambdaKnots`].
-//! The file `data/lambda.json` is written by the tool itself and never by hand; its `digest` covers every number in it, so
-//! that a changed file is refused instead of giving other stencils. At valence 4, block 2 is diagonal with f3 on its
-//! diagonal, so f3 is `mu = s lambda^2` by formula; the tabulated spline only approximates it and is kept to be compared.
+//! Evaluation is Eq. 22 of Ma, Wang and Ma (2023), `f_i(lambda) = b(lambda)^T C_i` with the cubic basis on
+//! [`LambdaKnots`]. The file `data/lambda.json` is written by the tool itself and never by hand; its `digest`
+//! covers every number in it, so that a changed file is refused instead of giving other stencils. At valence
+//! 4, block 2 is diagonal with f3 on its diagonal, so f3 is `mu = s lambda^2` by formula; the tabulated
+//! spline only approximates it and is kept to be compared.
 
 use super::{LambdaKnots, Relaxation};
 use crate::Error;
@@ -147,8 +148,9 @@ impl LambdaTable {
     /// Reads and checks a table.
     ///
     /// # Errors
-    /// [`Error::Table`] unless the text is a table of this version with ascending valences, featured values in the domain and
-    /// the stated digest; the errors of [`LambdaKnots::knots`], [`Spline::new`] and [`Error::Valence`] for a bad entry.
+    /// [`Error::Table`] unless the text is a table of this version with ascending valences, featured values
+    /// in the domain and the stated digest; the errors of [`LambdaKnots::knots`], [`Spline::new`] and
+    /// [`Error::Valence`] for a bad entry.
     pub fn from_json(text: &str) -> Result<Self, Error> {
         /// Read before the rest, so that another format is named as such.
         #[derive(Deserialize)]
@@ -194,8 +196,8 @@ impl LambdaTable {
         }
     }
 
-    /// 64-bit FNV-1a hash over the bits of all numbers of all entries, as 16 hexadecimal digits. It detects accidents, not
-    /// attacks.
+    /// 64-bit FNV-1a hash over the bits of all numbers of all entries, as 16 hexadecimal digits. It detects
+    /// accidents, not attacks.
     pub fn digest(&self) -> String {
         let words = self.valences.iter().flat_map(|entry| {
             let featured = [
@@ -239,7 +241,8 @@ impl LambdaTable {
     }
 }
 
-/// Coefficients of f3 are at most 1 and four of them are combined: a value below this is the rounding of zero.
+/// Coefficients of f3 are at most 1 and four of them are combined: a value below this is the rounding of
+/// zero.
 const ROUNDING: f64 = 1e-15;
 
 impl Entry {
@@ -264,7 +267,8 @@ impl Entry {
             4 => mu(lambda)?,
             _ => basis.combine(&basis.values, &self.f3),
         };
-        // where the spline touches its bound f3 >= 0, the sum of its terms ends within rounding on either side
+        // where the spline touches its bound f3 >= 0, the sum of its terms ends within rounding on either
+        // side
         let f3 = if f3.abs() < ROUNDING { 0.0 } else { f3 };
         Ok((f2, f3))
     }
@@ -280,7 +284,8 @@ impl Entry {
     /// The spline of f2.
     ///
     /// # Errors
-    /// [`Knots`](Refused::Knots) or [`Coefficients`](Refused::Coefficients) if the entry's numbers are not a spline.
+    /// [`Knots`](Refused::Knots) or [`Coefficients`](Refused::Coefficients) if the entry's numbers are not a
+    /// spline.
     pub fn f2_spline(&self) -> Result<Spline, Error> {
         Ok(Spline::new(self.knots.knots()?, self.f2.to_vec())?)
     }
@@ -288,7 +293,8 @@ impl Entry {
     /// The spline of f3; at valence 4 only an approximation of mu.
     ///
     /// # Errors
-    /// [`Knots`](Refused::Knots) or [`Coefficients`](Refused::Coefficients) if the entry's numbers are not a spline.
+    /// [`Knots`](Refused::Knots) or [`Coefficients`](Refused::Coefficients) if the entry's numbers are not a
+    /// spline.
     pub fn f3_spline(&self) -> Result<Spline, Error> {
         Ok(Spline::new(self.knots.knots()?, self.f3.to_vec())?)
     }
@@ -340,8 +346,8 @@ fn syntax(error: serde_json::Error) -> Error {
 mod tests {
     use super::*;
 
-    /// Knots of the paper, and coefficients that reproduce f2 = lambda/2, f3 = lambda/3 (the knot averages are their
-    /// Greville abscissae).
+    /// Knots of the paper, and coefficients that reproduce f2 = lambda/2, f3 = lambda/3 (the knot averages
+    /// are their Greville abscissae).
     fn entry(valence: usize) -> Entry {
         let knots = LambdaKnots {
             a: 0.15,

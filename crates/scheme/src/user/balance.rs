@@ -1,13 +1,13 @@
 //! Weights that were rounded when they were written down.
 //!
-//! A program that prints weights prints them rounded, and their sums and symmetries then hold to the last digits only. Taken
-//! literally such rules have no affine invariance and no mirror symmetry, which helps nobody. Rules are therefore
-//! **balanced**, pass by pass, in exact arithmetic:
+//! A program that prints weights prints them rounded, and their sums and symmetries then hold to the last
+//! digits only. Taken literally such rules have no affine invariance and no mirror symmetry, which helps
+//! nobody. Rules are therefore **balanced**, pass by pass, in exact arithmetic:
 //!
-//! 1. weights that a reflection in a spoke exchanges, and those of the centre that a rotation exchanges, are replaced by
-//!    their mean where they differ by at most [`TOLERANCE`];
-//! 2. a stencil whose weights sum to 1 within [`TOLERANCE`] is given the sum 1: the weight of the point itself takes the
-//!    rest, or all weights alike where the point is not among its own sources.
+//! 1. weights that a reflection in a spoke exchanges, and those of the centre that a rotation exchanges, are
+//!    replaced by their mean where they differ by at most [`TOLERANCE`];
+//! 2. a stencil whose weights sum to 1 within [`TOLERANCE`] is given the sum 1: the weight of the point
+//!    itself takes the rest, or all weights alike where the point is not among its own sources.
 //!
 //! What differs by more is meant, and stays. [`Balance`] says how many stencils were changed and by how much.
 
@@ -17,8 +17,9 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::collections::BTreeMap;
 
-/// Weights and sums closer than this are meant to be equal: weights below 1 that were printed with 13 or more decimals are off by
-/// less than a tenth of it, and no rule is known whose weights differ by so little on purpose.
+/// Weights and sums closer than this are meant to be equal: weights below 1 that were printed with 13 or more
+/// decimals are off by less than a tenth of it, and no rule is known whose weights differ by so little on
+/// purpose.
 const TOLERANCE: f64 = 1e-12;
 
 /// What balancing has changed.
@@ -115,7 +116,8 @@ fn alike_in_all_sectors(fan: Fan, centre: &mut Terms) {
     }
 }
 
-/// Stencils of the same point of every sector, where each is listed: weights at the same place are those of each sector.
+/// Stencils of the same point of every sector, where each is listed: weights at the same place are those of
+/// each sector.
 fn between_sectors(fan: Fan, stencils: &mut BTreeMap<Site, Terms>) {
     let n = fan.sectors() as i64;
     let first: Vec<Site> = stencils
@@ -154,7 +156,8 @@ fn mean_of(weights: &[BigRational]) -> Option<BigRational> {
 /// Weights that a reflection exchanges, of one stencil or of two that are each other's image.
 fn mirror_images(fan: Fan, repeated: bool, stencils: &mut BTreeMap<Site, Terms>) {
     for site in stencils.keys().copied().collect::<Vec<_>>() {
-        // the reflection in spoke 0, followed by the rotation that leads back to the sector in which stencils are listed
+        // the reflection in spoke 0, followed by the rotation that leads back to the sector in which stencils
+        // are listed
         let mirrored = site.mirrored(fan);
         let back = if repeated { -(mirrored.sector as i64) } else { 0 };
         let image = mirrored.rotated(fan, back);

@@ -11,7 +11,8 @@ const MAX_TEXT: usize = 1 << 24;
 /// The most terms of all stencils together: symmetric rules of a vertex of valence 1000 have some thousands.
 const MAX_TERMS: usize = 200_000;
 
-/// Valences beyond this are a typing error rather than a scheme: a dense local matrix would not fit into memory.
+/// Valences beyond this are a typing error rather than a scheme: a dense local matrix would not fit into
+/// memory.
 const MAX_VALENCE: usize = 1000;
 
 /// The largest degree and tap reach that are taken for meant.

@@ -19,7 +19,8 @@
 //! beta = 0.05       # total weight of the N face neighbours
 //! ```
 //!
-//! `kind = "stencils"` describes any passes around a vertex or a face; all positions are half steps (see [`Site`]):
+//! `kind = "stencils"` describes any passes around a vertex or a face; all positions are half steps (see
+//! [`Site`]):
 //!
 //! ```toml
 //! kind = "stencils"
@@ -44,11 +45,11 @@
 //! ]                                # sector = "all" gives the weight to the point of every sector
 //! ```
 //!
-//! A special point given for sector 0 only holds for all sectors; if any is given for another sector, every sector stands for
-//! itself. Numbers are taken as the exact decimals and fractions that are written, of any length; symmetry and degree are
-//! derived from them. `degree` may be left out; another one than that of the B-splines that the lines refine is
-//! refused, and it has no effect where they refine none. How weights that a program has rounded are read is said
-//! in [`Reading`].
+//! A special point given for sector 0 only holds for all sectors; if any is given for another sector, every
+//! sector stands for itself. Numbers are taken as the exact decimals and fractions that are written, of any
+//! length; symmetry and degree are derived from them. `degree` may be left out; another one than that of the
+//! B-splines that the lines refine is refused, and it has no effect where they refine none. How weights that
+//! a program has rounded are read is said in [`Reading`].
 
 mod balance;
 mod file;
@@ -64,9 +65,9 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "lowercase")]
 pub enum Reading {
     /// Weights of special stencils that a reflection in a spoke exchanges, those of the centre's also if a
-    /// rotation does, and sums of special stencils, are taken for rounded where they differ by at most 1e-12, from
-    /// each other or from 1, and balanced: the weights become their mean, and a point's own weight takes what is
-    /// missing to 1, or all weights alike if the point is not among its own sources.
+    /// rotation does, and sums of special stencils, are taken for rounded where they differ by at most 1e-12,
+    /// from each other or from 1, and balanced: the weights become their mean, and a point's own weight takes
+    /// what is missing to 1, or all weights alike if the point is not among its own sources.
     #[default]
     Balanced,
     /// As written.
@@ -105,8 +106,8 @@ impl UserScheme {
     /// Reads a scheme from the text of a TOML file; `default_name` is used if the file gives none.
     ///
     /// # Errors
-    /// [`Error::SchemeFile`], with what is wrong and where. Sums of weights are not checked here: they are a property to be
-    /// verified, not a matter of form.
+    /// [`Error::SchemeFile`], with what is wrong and where. Sums of weights are not checked here: they are a
+    /// property to be verified, not a matter of form.
     pub fn parse(text: &str, default_name: &str, reading: Reading) -> Result<Self, Error> {
         let contents = file::read(text)?;
         let name = contents.name.unwrap_or_else(|| default_name.to_owned());

@@ -1,8 +1,10 @@
 //! The objective straight from its definition, slowly: the oracle of the tests.
 //!
-//! Of the fast evaluation only the quadrature is used, whose nodes are held against exact arithmetic where they are made. The local matrix of the five rings is written down densely from the rules, eigenvectors
-//! come from inverse iteration on its one-ring block and a linear solve for the second ring, every patch of every sector is
-//! evaluated, and the integrals over the inner annuli are either summed one by one or by their geometric series.
+//! Of the fast evaluation only the quadrature is used, whose nodes are held against exact arithmetic where
+//! they are made. The local matrix of the five rings is written down densely from the rules, eigenvectors
+//! come from inverse iteration on its one-ring block and a linear solve for the second ring, every patch of
+//! every sector is evaluated, and the integrals over the inner annuli are either summed one by one or by
+//! their geometric series.
 
 use super::{Normalisation, Objective, Settings};
 use approx::assert_relative_eq;
@@ -92,12 +94,13 @@ impl Local {
         (before + if a == ring { b } else { ring + a }) as usize
     }
 
-    /// The eigenvector of `eigenvalue` in the invariant subspace of `start` (given on the one-ring), scaled so that its
-    /// inner product with `start` is that of `start` with itself.
+    /// The eigenvector of `eigenvalue` in the invariant subspace of `start` (given on the one-ring), scaled
+    /// so that its inner product with `start` is that of `start` with itself.
     fn eigenvector(&self, eigenvalue: f64, start: &[f64]) -> Vec<f64> {
         let (first, second) = (start.len(), start.len() + 4 * self.valence as usize);
-        // Inverse iteration gains the ratio of gap and shift in every step. A small shift would need fewer steps but blow up
-        // rounding errors in the directions of the other eigenvectors of the same eigenvalue.
+        // Inverse iteration gains the ratio of gap and shift in every step. A small shift would need fewer
+        // steps but blow up rounding errors in the directions of the other eigenvectors of the same
+        // eigenvalue.
         let shifted: Vec<Vec<f64>> = (0..first)
             .map(|i| {
                 let mut row = self.matrix[i][..first].to_vec();
@@ -239,7 +242,8 @@ impl Sampled {
     }
 }
 
-/// Solves the chain rule `z_ab = z_xx x_a x_b + z_xy (x_a y_b + x_b y_a) + z_yy y_a y_b + z_x x_ab + z_y y_ab`.
+/// Solves the chain rule `z_ab = z_xx x_a x_b + z_xy (x_a y_b + x_b y_a) + z_yy y_a y_b + z_x x_ab + z_y
+/// y_ab`.
 fn hessian(x: &[f64; 5], y: &[f64; 5], z: &[f64; 5], jacobian: f64) -> [f64; 3] {
     let zx = (z[0] * y[1] - z[1] * y[0]) / jacobian;
     let zy = (x[0] * z[1] - x[1] * z[0]) / jacobian;
@@ -363,7 +367,8 @@ impl Random {
     }
 }
 
-/// A random plane and feasible point: non-negative weights, |eigenvalues| of every other block below mu, corner radius at least 1.
+/// A random plane and feasible point: non-negative weights, |eigenvalues| of every other block below mu,
+/// corner radius at least 1.
 fn feasible(valence: usize, random: &mut Random) -> (Plane<f64>, f64, f64) {
     let n = valence as f64;
     let c = |k: f64| (TAU * k / n).cos();
@@ -501,7 +506,8 @@ fn the_gradient_is_that_of_central_differences() {
             let (value, gradient) = objective.value_and_gradient(f2, f3).unwrap();
             assert_eq!(value, objective.value(f2, f3).unwrap());
             let at = |f2: f64, f3: f64| objective.value(f2, f3).unwrap();
-            // fourth-order differences; the step balances truncation and rounding for functions of relative scale 0.1
+            // fourth-order differences; the step balances truncation and rounding for functions of relative
+            // scale 0.1
             let step = 2e-5;
             let difference = |f: &dyn Fn(f64) -> f64| {
                 (8.0 * (f(step) - f(-step)) - (f(2.0 * step) - f(-2.0 * step))) / (12.0 * step)

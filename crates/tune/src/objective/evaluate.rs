@@ -1,17 +1,19 @@
-//! The unnormalised parts of the objective and their derivatives with respect to the coefficients of the maps.
+//! The unnormalised parts of the objective and their derivatives with respect to the coefficients of the
+//! maps.
 //!
-//! Two passes over the Gauss points. The first computes Hessians and Jacobians and, by summing them, the fitted second
-//! derivatives; the second the weights, which depend on the fit, and the squared errors. With `J` the Jacobian (area per
-//! parameter area), `A = sum J` over the points with their quadrature weights, and `q` the weighted squared error at a point,
+//! Two passes over the Gauss points. The first computes Hessians and Jacobians and, by summing them, the
+//! fitted second derivatives; the second the weights, which depend on the fit, and the squared errors. With
+//! `J` the Jacobian (area per parameter area), `A = sum J` over the points with their quadrature weights, and
+//! `q` the weighted squared error at a point,
 //!
 //! ```text
 //! fit = rho <h>,  E = <q>,  <f> = sum J f / A
 //! dE = ( sum [ dJ (q - E) + J q_h dh ] + (sum J q_fit) dfit ) / A
 //! ```
 //!
-//! and `dfit` alike. `dh` is known in closed form: Hessians are linear in the height's coefficients, and with respect to the
-//! corner radius, which moves (x, y), they are transported (see `jet`). So E costs one evaluation and one adjoint of the error,
-//! whatever the number of coefficients.
+//! and `dfit` alike. `dh` is known in closed form: Hessians are linear in the height's coefficients, and with
+//! respect to the corner radius, which moves (x, y), they are transported (see `jet`). So E costs one
+//! evaluation and one adjoint of the error, whatever the number of coefficients.
 
 use super::fields::{Block, Derivatives, Fields, Turns};
 use super::jet::{Frame, Jet, Spin, Velocity};
@@ -71,7 +73,8 @@ struct Rates {
     cup: [Spin; 4],
 }
 
-/// Blocks whose weights are computed together: enough to hide the latency of a square root, few enough for the fastest cache.
+/// Blocks whose weights are computed together: enough to hide the latency of a square root, few enough for
+/// the fastest cache.
 const GROUP: usize = 4;
 
 /// The sign that tells the real from the imaginary saddle.
@@ -161,7 +164,8 @@ impl<const R: usize> Moment<R> {
         rates: [Lanes::ZERO; R],
     };
 
-    /// The fit `factor * value / area` and its derivatives; the first rate is that with respect to the corner radius.
+    /// The fit `factor * value / area` and its derivatives; the first rate is that with respect to the corner
+    /// radius.
     fn fit<const C: usize>(&self, factor: f64, area: f64, area_rate: f64) -> Slope<C> {
         let value = factor * self.value.sum() / area;
         Slope {
@@ -312,8 +316,8 @@ impl<const R: usize> Sum<R> {
     }
 }
 
-/// Extremes over all sectors and points of the Gauss curvature's numerator `z_xx z_yy - z_xy^2`, unnormalised, as
-/// (min, max) of the cup and of the two saddles.
+/// Extremes over all sectors and points of the Gauss curvature's numerator `z_xx z_yy - z_xy^2`,
+/// unnormalised, as (min, max) of the cup and of the two saddles.
 pub(super) fn curvature_extremes(
     fields: &Fields,
     turns: &Turns,

@@ -1,6 +1,7 @@
 //! The eleven fields of which the maps are made, with their derivatives at the Gauss points.
 //!
-//! At fixed valence, lambda and s no free weight acts beyond the first ring, so the maps are linear in a few numbers:
+//! At fixed valence, lambda and s no free weight acts beyond the first ring, so the maps are linear in a few
+//! numbers:
 //!
 //! ```text
 //! x + i y = X0 + R X1                       R = 2 f2 cos(pi/N) / (lambda - f3), the corner radius
@@ -8,16 +9,18 @@
 //! cup     = V C0 + E C1 + F C2              (V, E, F) the first ring of the eigenvector of block 0
 //! ```
 //!
-//! `X0`, `Z0` start from the edge points 1, 0 ..., `X1`, `Z1` from the face points; X0, X1, Z0, Z1 are complex, which makes eleven real
-//! fields. At N = 4 block 2 is diagonal and `Z = Z0 + Z1` carries its two modes as real and imaginary part.
+//! `X0`, `Z0` start from the edge points 1, 0 ..., `X1`, `Z1` from the face points; X0, X1, Z0, Z1 are
+//! complex, which makes eleven real fields. At N = 4 block 2 is diagonal and `Z = Z0 + Z1` carries its two
+//! modes as real and imaginary part.
 //!
-//! **Frame.** Coordinates are turned so that the bisector of sector 0 is the x axis: then mirroring sector 0 at its bisector
-//! conjugates every mode, and half a sector suffices. Sector i is the image under the turn by `phi_i = (2i+1) pi/N`, where the
-//! modes are `exp(i phi) (x + i y)` and `exp(2 i phi) Z`.
+//! **Frame.** Coordinates are turned so that the bisector of sector 0 is the x axis: then mirroring sector 0
+//! at its bisector conjugates every mode, and half a sector suffices. Sector i is the image under the turn by
+//! `phi_i = (2i+1) pi/N`, where the modes are `exp(i phi) (x + i y)` and `exp(2 i phi) Z`.
 //!
-//! **Domain.** The patches `[p,p+1] x [q,q+1]` with max(p,q) = 2 or 3 form the annulus Omega_0; they are the innermost ones
-//! that are regular bicubic and whose images under lambda^m tile the rest. Of each mirrored pair of points only the one below the
-//! diagonal is kept; weights are halved on the diagonal, so that they sum to 6, half a sector's area in parameters.
+//! **Domain.** The patches `[p,p+1] x [q,q+1]` with max(p,q) = 2 or 3 form the annulus Omega_0; they are the
+//! innermost ones that are regular bicubic and whose images under lambda^m tile the rest. Of each mirrored
+//! pair of points only the one below the diagonal is kept; weights are halved on the diagonal, so that they
+//! sum to 6, half a sector's area in parameters.
 
 use super::complex::Complex;
 use super::lanes::{Lanes, WIDTH};
@@ -29,7 +32,8 @@ use eigenring_spline::quadrature::gauss_legendre;
 /// Derivatives of a field with respect to the patch parameters: u, v, uu, uv, vv.
 pub(super) type Derivatives = [Lanes; 5];
 
-/// [`WIDTH`] Gauss points: quadrature weights and the fields' derivatives. Complex fields are [real part, imaginary part].
+/// [`WIDTH`] Gauss points: quadrature weights and the fields' derivatives. Complex fields are [real part,
+/// imaginary part].
 #[derive(Clone, Debug)]
 pub(super) struct Block {
     pub weight: Lanes,
@@ -56,7 +60,8 @@ pub(super) struct Fields {
 /// Patches with points below the diagonal; on the last two the diagonal passes through.
 const PATCHES: [(usize, usize); 7] = [(2, 0), (2, 1), (3, 0), (3, 1), (3, 2), (2, 2), (3, 3)];
 
-/// A field on the lattice points (a, b), a, b = -1..5, of which only the part next to the patches above is used.
+/// A field on the lattice points (a, b), a, b = -1..5, of which only the part next to the patches above is
+/// used.
 type Grid = [[f64; 7]; 7];
 
 impl Fields {
@@ -180,8 +185,8 @@ fn contract(grid: &Grid, p: usize, q: usize, basis: &[[f64; 4]; 3]) -> [[f64; 4]
     rows
 }
 
-/// The four uniform cubic B-splines on a unit interval at `t`, and their first and second derivatives, as polynomials: the
-/// tabulated optima were found with the roundings of these.
+/// The four uniform cubic B-splines on a unit interval at `t`, and their first and second derivatives, as
+/// polynomials: the tabulated optima were found with the roundings of these.
 fn cubic(t: f64) -> [[f64; 4]; 3] {
     let r = 1.0 - t;
     [
@@ -208,8 +213,9 @@ pub(super) struct Turn {
     pub square: Complex<f64>,
 }
 
-/// The `N / gcd(N, 4)` classes of sectors that differ in `t`, all of the same size. Sectors come in mirrored pairs, so the
-/// classes are real or conjugate in pairs, of which the one with the positive imaginary part is listed.
+/// The `N / gcd(N, 4)` classes of sectors that differ in `t`, all of the same size. Sectors come in mirrored
+/// pairs, so the classes are real or conjugate in pairs, of which the one with the positive imaginary part is
+/// listed.
 #[derive(Clone, Debug)]
 pub(super) struct Turns {
     /// t = 1 or t = -1.

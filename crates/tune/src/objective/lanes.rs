@@ -1,13 +1,13 @@
 //! Several Gauss points at a time.
 //!
-//! All points run through the same formulas, so the evaluation handles [`WIDTH`] of them in one array; the compiler turns
-//! the arrays into vector registers without any target flag.
+//! All points run through the same formulas, so the evaluation handles [`WIDTH`] of them in one array; the
+//! compiler turns the arrays into vector registers without any target flag.
 
 use eigenring_spline::{BigRational, Same, Scalar};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// Points per block: what one register of the baseline of x86-64 and of aarch64 holds. Wider blocks have been measured and
-/// lose to the spilling of registers.
+/// Points per block: what one register of the baseline of x86-64 and of aarch64 holds. Wider blocks have been
+/// measured and lose to the spilling of registers.
 pub(super) const WIDTH: usize = 2;
 
 /// One number for each of [`WIDTH`] points.

@@ -1,18 +1,19 @@
 //! The squared error of a map over all annuli, and the cup's with weight and adjoint.
 //!
-//! On annulus m the Hessian is `s^m` times that on Omega_0 and areas are `lambda^{2m}` times smaller. With `p = lambda^2` the
-//! sums over m are geometric; a component h of the Hessian with fitted value a contributes
+//! On annulus m the Hessian is `s^m` times that on Omega_0 and areas are `lambda^{2m}` times smaller. With `p
+//! = lambda^2` the sums over m are geometric; a component h of the Hessian with fitted value a contributes
 //!
 //! ```text
 //! sum_m p^m (s^m h - a)^2 = c0 [ (a - rho h)^2 + kappa h^2 ]
 //! c0 = 1/(1-p),  rho = (1-p)/(1-p s),  kappa = p (1-p) (s-1)^2 / ((1-p s^2) (1-p s)^2)
 //! ```
 //!
-//! a sum of squares, and `a = rho <h>` with <.> the mean over Omega_0. (c0 cancels against the area.) The squared error sums
-//! this over h = z_xx, z_xy, z_yy, each once as in Eq. 11, so it is not invariant under rotation.
+//! a sum of squares, and `a = rho <h>` with <.> the mean over Omega_0. (c0 cancels against the area.) The
+//! squared error sums this over h = z_xx, z_xy, z_yy, each once as in Eq. 11, so it is not invariant under
+//! rotation.
 //!
-//! **Cup.** It is the same in all sectors, where T stays and S turns. With `m` the mean of `exp(4 i phi)` over the sectors (zero unless
-//! N = 4), a = c = fit, b = 0 and `tau = rho^2 + kappa`,
+//! **Cup.** It is the same in all sectors, where T stays and S turns. With `m` the mean of `exp(4 i phi)`
+//! over the sectors (zero unless N = 4), a = c = fit, b = 0 and `tau = rho^2 + kappa`,
 //!
 //! ```text
 //! q = 2 (fit - rho T)^2 + 2 kappa T^2 + tau (3 |S|^2 + m Re S^2)/2,     K = T^2 - |S|^2
@@ -48,8 +49,8 @@ impl Annuli {
     }
 }
 
-/// A weighted squared error (summed over sector classes for a saddle) with its derivatives with respect to the Hessian
-/// (in the inner product of its components) and to the fitted value.
+/// A weighted squared error (summed over sector classes for a saddle) with its derivatives with respect to
+/// the Hessian (in the inner product of its components) and to the fitted value.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Error<H> {
     pub value: Lanes,

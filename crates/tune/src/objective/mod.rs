@@ -1,22 +1,23 @@
 //! How far a stencil's second-order maps are from quadratics: the objective of the tuning.
 //!
-//! Ma, Wang and Ma, *An unified lambda-subdivision scheme for quadrilateral meshes with optimal curvature performance in
-//! extraordinary regions*, ACM TOG 42(6) 209, 2023, Eqs. 11 to 20 and 33. Let (x, y) be the eigenfunctions of lambda around an
-//! extraordinary vertex and z_1, z_2, z_3 those of mu: a cup from Fourier block 0 and two saddles from block 2. A surface is
-//! curvature continuous there exactly if each z_i is a quadratic in (x, y). The objective sums, over the three maps,
+//! Ma, Wang and Ma, *An unified lambda-subdivision scheme for quadrilateral meshes with optimal curvature
+//! performance in extraordinary regions*, ACM TOG 42(6) 209, 2023, Eqs. 11 to 20 and 33. Let (x, y) be the
+//! eigenfunctions of lambda around an extraordinary vertex and z_1, z_2, z_3 those of mu: a cup from Fourier
+//! block 0 and two saddles from block 2. A surface is curvature continuous there exactly if each z_i is a
+//! quadratic in (x, y). The objective sums, over the three maps,
 //!
 //! ```text
 //! E_i = int w_i [ (z_xx - a)^2 + (z_xy - b)^2 + (z_yy - c)^2 ] / int 1        over Omega, dx dy
 //! ```
 //!
-//! with a, b, c the best constants without the weight, and w_i (see `weight`) between 1 and n^2 where the Gauss curvature has the
-//! wrong sign. Omega is a disc of self-similar annuli lambda^m Omega_0; its integrals are geometric series over those of the regular
-//! annulus Omega_0 (see `maps`), computed by Gauss quadrature.
+//! with a, b, c the best constants without the weight, and w_i (see `weight`) between 1 and n^2 where the
+//! Gauss curvature has the wrong sign. Omega is a disc of self-similar annuli lambda^m Omega_0; its integrals
+//! are geometric series over those of the regular annulus Omega_0 (see `maps`), computed by Gauss quadrature.
 //!
 //! Everything that does not depend on the free weights (f2, f3) is tabulated by [`Objective::new`] for one
-//! (valence, lambda, s): eleven fields of which the maps are combinations of six coefficients (see `fields`). An
-//! evaluation then needs no linear algebra (see `evaluate`), and the gradient is exact. At N = 4, where f3 must be mu, the
-//! objective is a function of f2 alone: the given f3 is not used and its derivative is zero.
+//! (valence, lambda, s): eleven fields of which the maps are combinations of six coefficients (see `fields`).
+//! An evaluation then needs no linear algebra (see `evaluate`), and the gradient is exact. At N = 4, where f3
+//! must be mu, the objective is a function of f2 alone: the given f3 is not used and its derivative is zero.
 
 mod complex;
 #[cfg(test)]
@@ -77,9 +78,10 @@ pub struct Part {
 
 /// The objective taken apart; all numbers are in the scale of the chosen normalisation.
 ///
-/// Signs of the eigenvectors: the cup has its edge neighbours at positive height, the real saddle is symmetric about the x axis, where
-/// its first edge neighbour has positive height, and the imaginary saddle is the real one turned by an eighth of a turn. At N = 4 the
-/// two saddles are the mode on the edge points and the mode on the face points.
+/// Signs of the eigenvectors: the cup has its edge neighbours at positive height, the real saddle is
+/// symmetric about the x axis, where its first edge neighbour has positive height, and the imaginary saddle
+/// is the real one turned by an eighth of a turn. At N = 4 the two saddles are the mode on the edge points
+/// and the mode on the face points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parts {
     /// The map of block 0.
@@ -88,8 +90,8 @@ pub struct Parts {
     pub saddle_re: Part,
     /// The imaginary part of the map of block 2.
     pub saddle_im: Part,
-    /// Smallest Jacobian of the characteristic map over the Gauss points, with (x, y) scaled so that the first edge
-    /// neighbour is (1, 0).
+    /// Smallest Jacobian of the characteristic map over the Gauss points, with (x, y) scaled so that the
+    /// first edge neighbour is (1, 0).
     pub jacobian_min: f64,
 }
 
@@ -99,8 +101,8 @@ impl Parts {
         self.cup.value + self.saddle_re.value + self.saddle_im.value
     }
 
-    /// `K_m` (Eq. 33): how far the Gauss curvatures reach to the wrong side of zero. Only the numerators of the
-    /// curvatures enter, so it is the sign and the zero that have a meaning.
+    /// `K_m` (Eq. 33): how far the Gauss curvatures reach to the wrong side of zero. Only the numerators of
+    /// the curvatures enter, so it is the sign and the zero that have a meaning.
     pub fn sign_change(&self) -> f64 {
         (-self.cup.gauss_min).max(0.0) + self.saddle_re.gauss_max.max(0.0) + self.saddle_im.gauss_max.max(0.0)
     }
@@ -110,8 +112,8 @@ impl Objective {
     /// Tabulates the fields.
     ///
     /// # Errors
-    /// [`Error`] if the plane's or the settings' numbers are out of range, or lambda or mu meets an eigenvalue of the outer
-    /// rings.
+    /// [`Error`] if the plane's or the settings' numbers are out of range, or lambda or mu meets an
+    /// eigenvalue of the outer rings.
     pub fn new(plane: Plane<f64>, settings: Settings) -> Result<Objective, Error> {
         settings.validate()?;
         Plane::new(plane.valence, plane.lambda, plane.s)?;
@@ -160,7 +162,8 @@ impl Objective {
         finite(total.value, f2, f3)
     }
 
-    /// The objective at (f2, f3), the same bits as [`Objective::value`], and its derivatives with respect to f2 and f3.
+    /// The objective at (f2, f3), the same bits as [`Objective::value`], and its derivatives with respect to
+    /// f2 and f3.
     ///
     /// # Errors
     /// As for [`Objective::value`].
@@ -187,7 +190,8 @@ impl Objective {
         };
         let (cup_range, saddle_ranges) = curvature_extremes(&self.fields, &self.turns, &plain);
         let scales = self.scales(&coefficients);
-        // second derivatives scale by `scale`, which carries the eigenvector's sign; their products by its square
+        // second derivatives scale by `scale`, which carries the eigenvector's sign; their products by its
+        // square
         let part = |value: f64, scale: f64, [a, b, c]: [f64; 3], (min, max): (f64, f64)| Part {
             value: value * scale * scale,
             a: a * scale,
@@ -225,8 +229,8 @@ impl Objective {
 
     /// The coefficients of the maps and their derivatives with respect to (f2, f3).
     ///
-    /// The first ring of the cup is the null vector of `(mu - f3) F = f1 V + 2 f2 E`, `(mu - g3) E = g1 V + 2 g2 mu F`, the cross
-    /// product of the two rows.
+    /// The first ring of the cup is the null vector of `(mu - f3) F = f1 V + 2 f2 E`, `(mu - g3) E = g1 V + 2
+    /// g2 mu F`, the cross product of the two rows.
     fn coefficients(&self, f2: f64, f3: f64) -> Coefficients<Dual2> {
         let constant = Dual2::constant;
         let two = Dual2::ratio(2, 1);

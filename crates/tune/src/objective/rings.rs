@@ -1,10 +1,11 @@
 //! Eigenvectors of the local matrix, continued outwards from the first ring.
 //!
-//! The points of a Fourier mode are `P_i(a,b) = v(a,b) w^{k i}` with `w = exp(2 pi i/N)`, where P_i(a,b), a >= 1, b >= 0, sits `a`
-//! steps along spoke `i` and `b` steps along spoke `i+1`. Points of ring >= 2 are refined by the uniform bicubic rule, so once
-//! the first ring and the eigenvalue are given, ring 2 follows from a 4x4 system (whose matrix has the eigenvalues 1/8, 1/16,
-//! 1/32, 1/64 in every mode) and rings 3 to 5 explicitly. No tuned weight acts beyond the first ring: at a fixed eigenvalue the
-//! outer rings depend linearly on the first.
+//! The points of a Fourier mode are `P_i(a,b) = v(a,b) w^{k i}` with `w = exp(2 pi i/N)`, where P_i(a,b), a
+//! >= 1, b >= 0, sits `a` steps along spoke `i` and `b` steps along spoke `i+1`. Points of ring >= 2 are
+//! refined by the uniform bicubic rule, so once the first ring and the eigenvalue are given, ring 2 follows
+//! from a 4x4 system (whose matrix has the eigenvalues 1/8, 1/16, 1/32, 1/64 in every mode) and rings 3 to 5
+//! explicitly. No tuned weight acts beyond the first ring: at a fixed eigenvalue the outer rings depend
+//! linearly on the first.
 
 use super::complex::Complex;
 use eigenring_spline::Scalar;
@@ -23,7 +24,8 @@ pub(super) struct FirstRing {
     pub face: Complex<f64>,
 }
 
-/// A mode on sector 0: `v(a,b)` for `1 <= a <= 5`, `0 <= b <= 5`, the centre and the phase `w^k` of one sector.
+/// A mode on sector 0: `v(a,b)` for `1 <= a <= 5`, `0 <= b <= 5`, the centre and the phase `w^k` of one
+/// sector.
 #[derive(Clone, Debug)]
 pub(super) struct Rings {
     vertex: Complex<f64>,
@@ -32,8 +34,8 @@ pub(super) struct Rings {
 }
 
 impl Rings {
-    /// The eigenvector of mode `k` with the given eigenvalue and first ring. The eigenvalue must not be one of ring 2's own,
-    /// which the caller has checked.
+    /// The eigenvector of mode `k` with the given eigenvalue and first ring. The eigenvalue must not be one
+    /// of ring 2's own, which the caller has checked.
     pub fn grow(valence: usize, k: i64, eigenvalue: f64, first: FirstRing) -> Rings {
         let mut rings = Rings {
             vertex: first.vertex,
@@ -93,7 +95,8 @@ impl Rings {
         sums
     }
 
-    /// One step of uniform bicubic refinement, read at the fine site (A, B), which sits at the coarse (A/2, B/2).
+    /// One step of uniform bicubic refinement, read at the fine site (A, B), which sits at the coarse (A/2,
+    /// B/2).
     fn refined(&self, (a, b): (usize, usize)) -> Complex<f64> {
         let mut sum = Complex::zero();
         for &(i, weight_a) in line(a).iter() {
@@ -105,7 +108,8 @@ impl Rings {
     }
 }
 
-/// The cubic curve rule at a fine index: (1, 6, 1)/8 for an even one, (1, 1)/2 for an odd one (its third entry is void).
+/// The cubic curve rule at a fine index: (1, 6, 1)/8 for an even one, (1, 1)/2 for an odd one (its third
+/// entry is void).
 fn line(fine: usize) -> [(i32, f64); 3] {
     let m = (fine / 2) as i32;
     if fine.is_multiple_of(2) {

@@ -1,9 +1,10 @@
 //! The squared error of the two saddles at a block of Gauss points, with its adjoint.
 //!
-//! Sector phi carries `Re, Im exp(2 i phi) Z`. Let T be the complex half trace of Z and `v = S[Z]/2`, `y = S[conj Z]/2`. The
-//! saddles have `S = exp(4 i phi) v + y` and `-i exp(4 i phi) v + i y`, so that on average only y remains: (a, b, c) = (fit, 0, -fit) and (0, fit, 0).
-//! With `t = exp(4 i phi)`, sign = +1 for the real and -1 for the imaginary part, `g = fit - rho y`,
-//! `B = kappa (3 y + sign conj y) - rho (3 g + sign conj g)`,
+//! Sector phi carries `Re, Im exp(2 i phi) Z`. Let T be the complex half trace of Z and `v = S[Z]/2`, `y =
+//! S[conj Z]/2`. The saddles have `S = exp(4 i phi) v + y` and `-i exp(4 i phi) v + i y`, so that on average
+//! only y remains: (a, b, c) = (fit, 0, -fit) and (0, fit, 0). With `t = exp(4 i phi)`, sign = +1 for the
+//! real and -1 for the imaginary part, `g = fit - rho y`, `B = kappa (3 y + sign conj y) - rho (3 g + sign
+//! conj g)`,
 //!
 //! ```text
 //! q = q0 + Re(t q1 + t^2 q2),  K = k0 + Re(t k1)           (K signed so that the ideal saddle has K = fit^2 > 0)
@@ -12,8 +13,8 @@
 //! k0 = |v|^2 + |y|^2 - |T|^2/2,  k1 = sign (2 v conj y - T^2/2)
 //! ```
 //!
-//! At N = 4, where t = -1 in all sectors, v and y are combined first, `y <- y - sign v, v <- 0`: each saddle is one of two independent
-//! modes, and the other one must not enter even as a sum that cancels.
+//! At N = 4, where t = -1 in all sectors, v and y are combined first, `y <- y - sign v, v <- 0`: each saddle
+//! is one of two independent modes, and the other one must not enter even as a sum that cancels.
 //!
 //! So the sectors enter through the sums of w, w t, w t^2 (value) and w' q, w' q t (adjoint) alone.
 
@@ -24,7 +25,8 @@ use super::lanes::Lanes;
 use super::maps::{Annuli, Error, inverse, inverse_square};
 use super::sectors::{Sums, Weights};
 
-/// The Hessian of the complex Z at a block of points: half trace and the two spin components of the module page.
+/// The Hessian of the complex Z at a block of points: half trace and the two spin components of the module
+/// page.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Saddle {
     pub t: Complex<Lanes>,
@@ -120,8 +122,8 @@ fn scaled(z: Complex<Lanes>, factor: f64) -> Complex<Lanes> {
     Complex::new(z.re * factor, z.im * factor)
 }
 
-/// The weighted squared error of the saddle with the given sign, summed over the sector classes. `weights` are those of the same
-/// saddle and fit; without them all weights are 1.
+/// The weighted squared error of the saddle with the given sign, summed over the sector classes. `weights`
+/// are those of the same saddle and fit; without them all weights are 1.
 #[inline(always)]
 pub(super) fn error<const GRADIENT: bool>(
     saddle: &Saddle,

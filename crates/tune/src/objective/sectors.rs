@@ -1,7 +1,8 @@
 //! Sums over the sectors: the inner loops of the whole computation.
 //!
-//! The Gauss curvature and the squared error of a saddle are trigonometric polynomials in the class `t = exp(4 i phi)` of a sector
-//! (see `saddle`). The weight of every point and class takes two square roots and one division; the rest are sums.
+//! The Gauss curvature and the squared error of a saddle are trigonometric polynomials in the class `t =
+//! exp(4 i phi)` of a sector (see `saddle`). The weight of every point and class takes two square roots and
+//! one division; the rest are sums.
 
 use super::complex::Complex;
 use super::fields::{Turn, Turns};
@@ -13,7 +14,8 @@ const ZERO: Complex<Lanes> = Complex {
     im: Lanes::ZERO,
 };
 
-/// Sums over the sector classes of w, w t, w t^2 (`w0`, `w1`, `w2`) and, with u = q dw/dk, of u and u t (`v0`, `v1`).
+/// Sums over the sector classes of w, w t, w t^2 (`w0`, `w1`, `w2`) and, with u = q dw/dk, of u and u t
+/// (`v0`, `v1`).
 pub(super) struct Sums {
     pub w0: Lanes,
     pub w1: Complex<Lanes>,
@@ -91,14 +93,16 @@ impl Sums {
     }
 }
 
-/// w and dw/dk of one saddle at a block of points: of each pair of classes first t, then its conjugate; then the real ones.
+/// w and dw/dk of one saddle at a block of points: of each pair of classes first t, then its conjugate; then
+/// the real ones.
 #[derive(Clone, Copy)]
 pub(super) struct Weights<'a> {
     w: &'a [[f64; WIDTH]],
     slope: &'a [[f64; WIDTH]],
 }
 
-/// The weights of a few blocks, computed in one go: a loop over plain numbers, long enough to keep the divider busy.
+/// The weights of a few blocks, computed in one go: a loop over plain numbers, long enough to keep the
+/// divider busy.
 pub(super) struct WeightTable<'a> {
     turns: &'a Turns,
     k: Vec<[f64; WIDTH]>,

@@ -1,22 +1,25 @@
 //! What can be chosen about the objective, and what is refused.
 
-/// How the eigenvectors are scaled. The objective is not invariant: multiplying x, y by `p` and z by `q` multiplies its part
-/// by `(q / p^2)^2`, and as the scale depends on (f2, f3) and lambda, so does the optimum.
+/// How the eigenvectors are scaled. The objective is not invariant: multiplying x, y by `p` and z by `q`
+/// multiplies its part by `(q / p^2)^2`, and as the scale depends on (f2, f3) and lambda, so does the
+/// optimum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Normalisation {
-    /// Each of x, y and the three z has unit Euclidean norm over the whole five-ring neighbourhood of `30 N + 1` points. The
-    /// paper does not state its normalisation; of the natural ones this is the one that reproduces its optimal lambda.
+    /// Each of x, y and the three z has unit Euclidean norm over the whole five-ring neighbourhood of `30 N +
+    /// 1` points. The paper does not state its normalisation; of the natural ones this is the one that
+    /// reproduces its optimal lambda.
     Paper,
-    /// The eigenvectors as they come: the edge neighbour on the x axis has the value 1 (for the second saddle at N = 4, which
-    /// vanishes there, the first face neighbour).
+    /// The eigenvectors as they come: the edge neighbour on the x axis has the value 1 (for the second saddle
+    /// at N = 4, which vanishes there, the first face neighbour).
     UnitRing,
 }
 
 /// The constants of the objective; [`Settings::default`] are the paper's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Width of the transition of the weight, relative to the ideal Gauss curvature (Eq. 20). Positive and finite.
+    /// Width of the transition of the weight, relative to the ideal Gauss curvature (Eq. 20). Positive and
+    /// finite.
     pub epsilon: f64,
     /// The weight runs from 1 to `n^2` (Eq. 17). At least 1 and finite.
     pub n: f64,
@@ -71,7 +74,8 @@ pub enum Error {
         /// What was given.
         order: usize,
     },
-    /// lambda or mu meets an eigenvalue of the outer rings, so that the eigenvector is not determined by the first ring.
+    /// lambda or mu meets an eigenvalue of the outer rings, so that the eigenvector is not determined by the
+    /// first ring.
     #[error("the eigenvalue {eigenvalue} coincides with the outer rings' eigenvalue {outer}")]
     Resonance {
         /// lambda or mu.

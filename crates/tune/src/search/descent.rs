@@ -1,10 +1,11 @@
 //! A descent to a local minimum: trust regions with exact gradients and a quasi-Newton Hessian.
 //!
-//! At each point the [`Model`] is minimised over the domain within a box; the function is evaluated there, and the box grows
-//! or shrinks with the agreement between predicted and true change (Conn, Gould and Toint, *Trust-Region Methods*, 2000, algorithm
-//! 6.1.1 and its customary constants). The Hessian starts with differences of gradients, which cost two evaluations, and is
-//! updated by the symmetric rank-one formula, whether a step was accepted or not; unlike BFGS it may become indefinite, which
-//! the model's enumeration welcomes.
+//! At each point the [`Model`] is minimised over the domain within a box; the function is evaluated there,
+//! and the box grows or shrinks with the agreement between predicted and true change (Conn, Gould and Toint,
+//! *Trust-Region Methods*, 2000, algorithm 6.1.1 and its customary constants). The Hessian starts with
+//! differences of gradients, which cost two evaluations, and is updated by the symmetric rank-one formula,
+//! whether a step was accepted or not; unlike BFGS it may become indefinite, which the model's enumeration
+//! welcomes.
 
 use super::frame::Frame;
 use super::kkt::{self, dot, norm};
@@ -26,18 +27,21 @@ pub(super) struct End {
     pub evaluations: usize,
 }
 
-/// Evaluations after which a descent ends at the best point so far. About ten is usual; the KKT residual tells.
+/// Evaluations after which a descent ends at the best point so far. About ten is usual; the KKT residual
+/// tells.
 const EVALUATIONS: usize = 120;
 
-/// Steps shorter than this, in units of the domain, end a descent: convergence is superlinear, so the point is better than that.
+/// Steps shorter than this, in units of the domain, end a descent: convergence is superlinear, so the point
+/// is better than that.
 const STEP: f64 = 1e-10;
 
-/// Below this relative change of the value rounding may decide which of two values is the lower: near mu = 1/8, where the outer
-/// rings' eigenvectors nearly belong to mu, the objective has lost seven of its digits (observed at N = 4, lambda = 0.15).
+/// Below this relative change of the value rounding may decide which of two values is the lower: near mu =
+/// 1/8, where the outer rings' eigenvectors nearly belong to mu, the objective has lost seven of its digits
+/// (observed at N = 4, lambda = 0.15).
 const NOISE: f64 = 1e-9;
 
-/// Distance of the differences that start the Hessian, in units of the domain: truncation and rounding are both small
-/// against the model's other errors.
+/// Distance of the differences that start the Hessian, in units of the domain: truncation and rounding are
+/// both small against the model's other errors.
 const DIFFERENCE: f64 = 1e-4;
 
 impl Descent {
@@ -53,7 +57,8 @@ impl Descent {
         radius_max: 0.1,
     };
 
-    /// Descends; `None` if the function is not finite at the start or the start has no nearest point of the domain.
+    /// Descends; `None` if the function is not finite at the start or the start has no nearest point of the
+    /// domain.
     pub fn run(&self, function: &impl Function, frame: &Frame, start: [f64; 2]) -> Option<End> {
         let mut walk = Walk {
             function,
@@ -68,7 +73,8 @@ impl Descent {
             let model = Model { gradient, hessian };
             let minimum = model.minimum(frame, point, radius);
             let Some((place, step, predicted)) = minimum.filter(|(_, step, _)| size(*step) > STEP) else {
-                // nowhere to go, or the enumeration has left out what a strongly curved domain offers within the box: look nearer
+                // nowhere to go, or the enumeration has left out what a strongly curved domain offers within
+                // the box: look nearer
                 radius *= 0.1;
                 if radius > STEP {
                     continue;
@@ -139,8 +145,8 @@ impl<F: Function> Walk<'_, F> {
         (value.is_finite() && gradient.iter().all(|g| g.is_finite())).then_some((value, gradient))
     }
 
-    /// Second derivatives from gradients at two neighbouring points of the domain, or a multiple of the unit matrix if there are
-    /// no usable ones.
+    /// Second derivatives from gradients at two neighbouring points of the domain, or a multiple of the unit
+    /// matrix if there are no usable ones.
     fn difference_hessian(&mut self, point: [f64; 2], value: f64, gradient: [f64; 2]) -> Hessian {
         let size = norm(gradient).max(value.abs());
         let (fallback, flat) = ([size, 0.0, size], self.frame.is_flat());
@@ -184,8 +190,8 @@ impl<F: Function> Walk<'_, F> {
     }
 }
 
-/// The symmetric rank-one update: the smallest change in rank that makes `H step` the change of the gradient. It is left out
-/// where it would divide by almost nothing (Nocedal and Wright 2006, Eq. 6.26).
+/// The symmetric rank-one update: the smallest change in rank that makes `H step` the change of the gradient.
+/// It is left out where it would divide by almost nothing (Nocedal and Wright 2006, Eq. 6.26).
 fn rank_one(hessian: Hessian, step: [f64; 2], old: [f64; 2], new: [f64; 2]) -> Hessian {
     let [hxx, hxy, hyy] = hessian;
     let miss = [

@@ -6,7 +6,8 @@ use eigenring_spline::Dual;
 /// A domain with its two units of length.
 pub(super) struct Frame<'a> {
     pub domain: &'a Domain,
-    /// Units of f2 and f3: the longest interval of f2 on a few rows, and the range of f3 (zero at N = 4, where f3 does not vary).
+    /// Units of f2 and f3: the longest interval of f2 on a few rows, and the range of f3 (zero at N = 4,
+    /// where f3 does not vary).
     pub unit: [f64; 2],
     /// The range of f3.
     pub f3: [f64; 2],
@@ -21,7 +22,8 @@ pub(super) enum Side {
     Upper,
 }
 
-/// A boundary curve near a point p, in units of the domain: `x = offset + slope y + bend y^2/2 + ...` relative to p.
+/// A boundary curve near a point p, in units of the domain: `x = offset + slope y + bend y^2/2 + ...`
+/// relative to p.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Arc {
     pub curve: Curve,
@@ -92,8 +94,8 @@ impl<'a> Frame<'a> {
         self.f3.map(|end| (end - f3) / self.unit[1])
     }
 
-    /// The curves that end the intervals of f2 at the f3 of a point and at `reach` on both sides of it. Two curves that meet
-    /// nearby are both seen.
+    /// The curves that end the intervals of f2 at the f3 of a point and at `reach` on both sides of it. Two
+    /// curves that meet nearby are both seen.
     pub fn arcs(&self, point: [f64; 2], reach: f64) -> Vec<Arc> {
         let mut arcs: Vec<Arc> = Vec::with_capacity(6);
         for y in [0.0, -reach, reach] {

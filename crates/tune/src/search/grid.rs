@@ -5,7 +5,8 @@ use eigenring_scheme::lambda::Domain;
 
 /// Values of a function at the starting points of a domain.
 pub(super) struct Grid {
-    /// One entry per row of f3, ascending; in it one strip per interval of f2, ascending; in it the points, ascending in f2.
+    /// One entry per row of f3, ascending; in it one strip per interval of f2, ascending; in it the points,
+    /// ascending in f2.
     rows: Vec<Vec<Strip>>,
 }
 
@@ -32,8 +33,8 @@ impl Grid {
         self.rows.iter().flatten().map(Vec::len).sum()
     }
 
-    /// Where to start, by rising value. A grid minimum is not above its up to four neighbours, of which equal ones that come earlier
-    /// count as lower.
+    /// Where to start, by rising value. A grid minimum is not above its up to four neighbours, of which equal
+    /// ones that come earlier count as lower.
     pub fn starts(&self, starts: Starts) -> Vec<[f64; 2]> {
         let mut chosen = Vec::new();
         for (i, row) in self.rows.iter().enumerate() {
@@ -57,8 +58,8 @@ impl Grid {
         chosen.into_iter().map(|(point, _)| point).collect()
     }
 
-    /// The value at the neighbour in another row of point k of strip j of `strips`: the same place in a row of as many strips,
-    /// the nearest f2 in a row of another number.
+    /// The value at the neighbour in another row of point k of strip j of `strips`: the same place in a row
+    /// of as many strips, the nearest f2 in a row of another number.
     fn across(&self, row: usize, strips: usize, j: usize, k: usize, f2: f64) -> Option<f64> {
         let row = self.rows.get(row)?;
         if row.len() == strips {

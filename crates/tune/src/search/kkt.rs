@@ -1,8 +1,8 @@
 //! The first-order conditions at a point of the domain.
 //!
-//! With the bounds written as `c_j >= 0`, a minimum fulfils `grad E = sum_j m_j grad c_j` over the bounds with c_j = 0, all
-//! `m_j >= 0`. In the plane two bounds are enough to represent any such sum, so that the nearest one to grad E is found among all
-//! subsets of at most two bounds.
+//! With the bounds written as `c_j >= 0`, a minimum fulfils `grad E = sum_j m_j grad c_j` over the bounds
+//! with c_j = 0, all `m_j >= 0`. In the plane two bounds are enough to represent any such sum, so that the
+//! nearest one to grad E is found among all subsets of at most two bounds.
 
 use super::ActiveBound;
 use super::frame::{Arc, Frame, Side};
@@ -18,7 +18,8 @@ pub(super) struct Kkt {
     pub rest: f64,
 }
 
-/// An active bound with the gradient of c_j in units of the domain; `unit` is the unit of the coordinate in which c_j is measured.
+/// An active bound with the gradient of c_j in units of the domain; `unit` is the unit of the coordinate in
+/// which c_j is measured.
 struct Normal {
     constraint: Constraint,
     normal: [f64; 2],

@@ -1,21 +1,23 @@
 //! Minima of a smooth function over the feasible domain of one plane.
 //!
-//! Tuning at one lambda is a problem in two variables (Ma, Wang and Ma 2023, Algorithm 1): minimise E(f2, f3) over a
-//! [`Domain`], which has curved sides with corners, is about 1e-4 wide in f3 where s > 1, and at N = 3 has a hole. At many lambda
-//! the optimum lies on a side or in a corner. The search has two stages.
+//! Tuning at one lambda is a problem in two variables (Ma, Wang and Ma 2023, Algorithm 1): minimise E(f2, f3)
+//! over a [`Domain`], which has curved sides with corners, is about 1e-4 wide in f3 where s > 1, and at N = 3
+//! has a hole. At many lambda the optimum lies on a side or in a corner. The search has two stages.
 //!
-//! 1. **Starts.** E is evaluated at the middles of 10 x 10 cells of the domain; a descent starts from each local minimum of
-//!    this grid ([`Starts::Grid`]) or from every point of it ([`Starts::Full`]).
-//! 2. **Descent** (`descent.rs`), a trust-region method. E is modelled by a quadratic form, whose minimum over the *true* domain
-//!    within a box is found by enumeration (`model.rs`): in two variables it is an interior point, lies on a side
-//!    of the box or of the domain, or in a corner, and each of these is a closed form or a short Newton iteration on boundary
-//!    curves alone. Hence sides and corners are hit exactly, and curvature of the sides enters at no cost in evaluations.
+//! 1. **Starts.** E is evaluated at the middles of 10 x 10 cells of the domain; a descent starts from each
+//!    local minimum of this grid ([`Starts::Grid`]) or from every point of it ([`Starts::Full`]).
+//! 2. **Descent** (`descent.rs`), a trust-region method. E is modelled by a quadratic form, whose minimum
+//!    over the *true* domain within a box is found by enumeration (`model.rs`): in two variables it is an
+//!    interior point, lies on a side of the box or of the domain, or in a corner, and each of these is a
+//!    closed form or a short Newton iteration on boundary curves alone. Hence sides and corners are hit
+//!    exactly, and curvature of the sides enters at no cost in evaluations.
 //!
-//! Every point at which E is evaluated lies in the domain, up to rounding of its bounds. Where E has no finite value it counts
-//! as infinitely large.
+//! Every point at which E is evaluated lies in the domain, up to rounding of its bounds. Where E has no
+//! finite value it counts as infinitely large.
 //!
-//! Lengths are measured in units of the domain (`frame.rs`): f3 in its range, f2 in its longest interval. The first-order
-//! conditions (Karush, Kuhn and Tucker) are reported with each [`Optimum`]. Nothing is random; results depend on the input only.
+//! Lengths are measured in units of the domain (`frame.rs`): f3 in its range, f2 in its longest interval. The
+//! first-order conditions (Karush, Kuhn and Tucker) are reported with each [`Optimum`]. Nothing is random;
+//! results depend on the input only.
 
 mod descent;
 mod error;
@@ -55,7 +57,8 @@ impl Function for Objective {
 /// From where to descend.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Starts {
-    /// From the local minima of the grid of starting points; from all of its points if that shows the function to be rough.
+    /// From the local minima of the grid of starting points; from all of its points if that shows the
+    /// function to be rough.
     #[default]
     Grid,
     /// From every point of the grid.
@@ -63,8 +66,8 @@ pub enum Starts {
 }
 
 impl Starts {
-    /// Rows of the grid, and points per row and interval of f2; the paper's number. With 10 rows the two choices of starts find the
-    /// same lowest minimum at all samples of N = 3..20 (`examples/agreement.rs`).
+    /// Rows of the grid, and points per row and interval of f2; the paper's number. With 10 rows the two
+    /// choices of starts find the same lowest minimum at all samples of N = 3..20 (`examples/agreement.rs`).
     pub const COUNT: usize = 10;
 }
 
@@ -73,8 +76,9 @@ impl Starts {
 pub struct ActiveBound {
     /// Which one.
     pub constraint: Constraint,
-    /// How fast the optimal value rises when the bound moves into the domain: by f2 for the curves that bound f2 at a given f3, by f3
-    /// for the ends of its range. Never negative; zero if the bound does not hold the optimum back.
+    /// How fast the optimal value rises when the bound moves into the domain: by f2 for the curves that bound
+    /// f2 at a given f3, by f3 for the ends of its range. Never negative; zero if the bound does not hold the
+    /// optimum back.
     pub multiplier: f64,
 }
 
@@ -89,9 +93,9 @@ pub struct Optimum {
     pub total: f64,
     /// The bounds on which it lies, by [`Constraint`]. The equation `f3 = mu` at N = 4 is not listed.
     pub active: Vec<ActiveBound>,
-    /// Length of what remains of the gradient after subtracting non-negative multiples of the active bounds' normals, over the sum
-    /// of the lengths of gradient and Hessian, all in units of the domain: roughly the distance from the exact
-    /// minimum as a fraction of the domain.
+    /// Length of what remains of the gradient after subtracting non-negative multiples of the active bounds'
+    /// normals, over the sum of the lengths of gradient and Hessian, all in units of the domain: roughly the
+    /// distance from the exact minimum as a fraction of the domain.
     pub kkt_residual: f64,
 }
 
@@ -105,7 +109,8 @@ impl Optimum {
 /// All local minima that were found, and what it cost.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Search {
-    /// The distinct local minima by rising value; at least one. Two are the same if they lie within [`MERGE`] of each other.
+    /// The distinct local minima by rising value; at least one. Two are the same if they lie within [`MERGE`]
+    /// of each other.
     pub optima: Vec<Optimum>,
     /// Points of the grid.
     pub starts: usize,
@@ -126,21 +131,23 @@ impl Search {
     }
 }
 
-/// Minima nearer than this in both coordinates, in units of the domain, are one. Descents end within 1e-8 of a minimum; distinct
-/// minima are 1e-2 and more apart (observed for N = 3..20).
+/// Minima nearer than this in both coordinates, in units of the domain, are one. Descents end within 1e-8 of
+/// a minimum; distinct minima are 1e-2 and more apart (observed for N = 3..20).
 pub const MERGE: f64 = 1e-5;
 
-/// If so many distinct minima are found, and the second is within [`COMPARABLE`] of the lowest, the grid is too coarse for the
-/// function, and [`Starts::Grid`] turns into [`Starts::Full`]. Of N = 3..20 this happens only at N = 3 and lambda < 0.22: there mu is close to
-/// 1/8, E is a plateau with a valley 1e-3 wide, and as fitted curvatures are nearly zero in it, the weight of a Gauss point is a step
-/// and E a staircase. Where E is smooth there are at most two comparable minima. Both numbers are empirical.
+/// If so many distinct minima are found, and the second is within [`COMPARABLE`] of the lowest, the grid is
+/// too coarse for the function, and [`Starts::Grid`] turns into [`Starts::Full`]. Of N = 3..20 this happens
+/// only at N = 3 and lambda < 0.22: there mu is close to 1/8, E is a plateau with a valley 1e-3 wide, and as
+/// fitted curvatures are nearly zero in it, the weight of a Gauss point is a step and E a staircase. Where E
+/// is smooth there are at most two comparable minima. Both numbers are empirical.
 const ROUGH: usize = 3;
 
 /// A factor between values, see [`ROUGH`].
 const COMPARABLE: f64 = 2.0;
 
-/// KKT residual up to which the end of a descent is a minimum. Where E is smooth, residuals are below 1e-9; on the plateaus and
-/// stairs of N = 3 some descents get stuck. The lowest end is always kept: its residual says what it is.
+/// KKT residual up to which the end of a descent is a minimum. Where E is smooth, residuals are below 1e-9;
+/// on the plateaus and stairs of N = 3 some descents get stuck. The lowest end is always kept: its residual
+/// says what it is.
 pub const CONVERGED: f64 = 1e-4;
 
 /// Searches a domain for its local minima.
@@ -183,11 +190,13 @@ pub fn search(function: &impl Function, domain: &Domain, starts: Starts) -> Resu
     Ok(search)
 }
 
-/// The local minimum to which a descent from a nearby minimum leads, with the number of evaluations of value and gradient. A
-/// starting point outside of the domain is moved to it first; steps are short, so that the descent stays in its basin.
+/// The local minimum to which a descent from a nearby minimum leads, with the number of evaluations of value
+/// and gradient. A starting point outside of the domain is moved to it first; steps are short, so that the
+/// descent stays in its basin.
 ///
 /// # Errors
-/// [`Error::NotFinite`] for a starting point that is not a number, [`Error::NoFiniteValue`] if the function is not finite there.
+/// [`Error::NotFinite`] for a starting point that is not a number, [`Error::NoFiniteValue`] if the function
+/// is not finite there.
 pub fn continue_from(function: &impl Function, domain: &Domain, start: [f64; 2]) -> Result<(Optimum, usize), Error> {
     let [f2, f3] = start;
     if !(f2.is_finite() && f3.is_finite()) {
@@ -203,8 +212,8 @@ pub fn same_minimum(domain: &Domain, a: [f64; 2], b: [f64; 2]) -> bool {
     Frame::new(domain).distance(a, b) <= MERGE
 }
 
-/// The distance of two points in units of the domain: the larger of the differences in f2 over the longest interval of f2 and in f3 over
-/// the range of f3.
+/// The distance of two points in units of the domain: the larger of the differences in f2 over the longest
+/// interval of f2 and in f3 over the range of f3.
 pub fn distance(domain: &Domain, a: [f64; 2], b: [f64; 2]) -> f64 {
     Frame::new(domain).distance(a, b)
 }

@@ -1,10 +1,11 @@
 //! A quadratic model and its minimum over the domain within a box.
 //!
-//! The model `q(d) = g.d + d.H d/2` in the step d from a point p need not be convex. Over a polygon its minimum is a stationary
-//! point inside (H positive definite), a stationary point of a side, or a corner; they can be enumerated. The domain's
-//! sides are curved, so they are followed exactly: a candidate on a boundary curve is placed at an f3, which a model of second
-//! order along the curve suggests, and on the curve itself; a candidate corner is where two curves meet. The model is then
-//! evaluated at these true points, and the lowest wins. (With the multiplier m of an active curve the bend adds `m bend` to the
+//! The model `q(d) = g.d + d.H d/2` in the step d from a point p need not be convex. Over a polygon its
+//! minimum is a stationary point inside (H positive definite), a stationary point of a side, or a corner;
+//! they can be enumerated. The domain's sides are curved, so they are followed exactly: a candidate on a
+//! boundary curve is placed at an f3, which a model of second order along the curve suggests, and on the
+//! curve itself; a candidate corner is where two curves meet. The model is then evaluated at these true
+//! points, and the lowest wins. (With the multiplier m of an active curve the bend adds `m bend` to the
 //! curvature along it: the Hessian of the Lagrangian, here without a Lagrangian.)
 
 use super::frame::{Arc, Frame};
@@ -33,8 +34,8 @@ impl Model {
         (hxx * hxx + 2.0 * hxy * hxy + hyy * hyy).sqrt()
     }
 
-    /// The point of the domain with the lowest model value in the box of the given half size around `point`, the step to it and
-    /// the predicted change; `None` if no point promises a decrease.
+    /// The point of the domain with the lowest model value in the box of the given half size around `point`,
+    /// the step to it and the predicted change; `None` if no point promises a decrease.
     pub fn minimum(&self, frame: &Frame, point: [f64; 2], radius: f64) -> Option<([f64; 2], [f64; 2], f64)> {
         let mut best = None;
         let mut lowest = 0.0;
@@ -74,9 +75,8 @@ impl Model {
         best
     }
 
-    /// The candidates of the model without the domain's curves: the stationary point, the end of the box in the direction of
-    /// steepest descent, and on each side of the box its stationary
-    /// point and ends.
+    /// The candidates of the model without the domain's curves: the stationary point, the end of the box in
+    /// the direction of steepest descent, and on each side of the box its stationary point and ends.
     fn box_candidates(&self, rows: [f64; 2], radius: f64, flat: bool) -> Vec<[f64; 2]> {
         let ([gx, gy], [hxx, hxy, hyy]) = (self.gradient, self.hessian);
         // straight down, where all else is out of the domain
@@ -102,8 +102,9 @@ impl Model {
         steps
     }
 
-    /// Steps in f3 to try on a boundary curve: the stationary point of the second-order model along it, the ends of the box. A steep
-    /// curve (around the hole at N = 3 they become vertical) is followed by x instead of y.
+    /// Steps in f3 to try on a boundary curve: the stationary point of the second-order model along it, the
+    /// ends of the box. A steep curve (around the hole at N = 3 they become vertical) is followed by x
+    /// instead of y.
     fn arc_candidates(&self, arc: &Arc, rows: [f64; 2], radius: f64) -> Vec<f64> {
         let ([gx, gy], [hxx, hxy, hyy]) = (self.gradient, self.hessian);
         let &Arc {
@@ -132,8 +133,9 @@ impl Model {
     }
 }
 
-/// The step in f3 at which two curves meet near a point, by Newton's method on their difference. It is quadratic, as curves
-/// meet at an angle; three steps from within a trust region leave rounding only in the last descents, where it matters.
+/// The step in f3 at which two curves meet near a point, by Newton's method on their difference. It is
+/// quadratic, as curves meet at an angle; three steps from within a trust region leave rounding only in the
+/// last descents, where it matters.
 fn meeting(frame: &Frame, [a, b]: [&Arc; 2], f3: f64, rows: [f64; 2]) -> Option<f64> {
     let mut y = -(a.offset - b.offset) / (a.slope - b.slope);
     for _ in 0..3 {

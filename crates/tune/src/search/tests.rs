@@ -45,7 +45,8 @@ impl Function for Bowl {
     }
 }
 
-/// The minimum of a bowl by rows: in a row f2 is the free minimum clamped to the interval, between rows a scan and a ternary search.
+/// The minimum of a bowl by rows: in a row f2 is the free minimum clamped to the interval, between rows a
+/// scan and a ternary search.
 fn by_rows(domain: &Domain, bowl: &Bowl) -> f64 {
     let row = |f3: f64| {
         let free = bowl.centre[0] - bowl.tilt * (f3 - bowl.centre[1]) / bowl.unit[1] * bowl.unit[0];
@@ -290,7 +291,8 @@ fn optima_in_corners_are_found_from_every_start() {
     }
 }
 
-/// Descends with the slsqp crate in units of the domain; arguments outside are moved to the domain before evaluation.
+/// Descends with the slsqp crate in units of the domain; arguments outside are moved to the domain before
+/// evaluation.
 fn slsqp(objective: &Objective, domain: &Domain, start: [f64; 2]) -> f64 {
     let frame = Frame::new(domain);
     let origin = [0.0, frame.f3[0]];

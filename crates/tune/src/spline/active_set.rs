@@ -1,22 +1,27 @@
 //! The exact end of a quadratic programme: a dual active-set method.
 //!
-//! An interior-point solution touches its bounds to about 1e-8 and does not say which of many nearly active bounds carry the
-//! optimum. This method, Goldfarb and Idnani's (*Math. Programming* 27, 1983), ends with a set of independent bounds that
-//! hold with equality, non-negative multipliers, and all other bounds satisfied.
+//! An interior-point solution touches its bounds to about 1e-8 and does not say which of many nearly active
+//! bounds carry the optimum. This method, Goldfarb and Idnani's (*Math. Programming* 27, 1983), ends with a
+//! set of independent bounds that hold with equality, non-negative multipliers, and all other bounds
+//! satisfied.
 //!
-//! In the coordinates of the `reduce` page the problem is `min 1/2 |v - d|^2` subject to `c_i . v >= h_i`. For a *working
-//! set* W of independent bounds with non-negative multipliers u at the projection v of d onto `c_i . v = h_i, i in W`:
+//! In the coordinates of the `reduce` page the problem is `min 1/2 |v - d|^2` subject to `c_i . v >= h_i`.
+//! For a *working set* W of independent bounds with non-negative multipliers u at the projection v of d onto
+//! `c_i . v = h_i, i in W`:
 //!
 //! 1. Take the most violated bound p; if there is none, v is optimal.
-//! 2. With `z` the part of `c_p` orthogonal to the working normals and `c_p - z = sum_j r_j c_j`, the move
-//!    `v += t z, u_j -= t r_j, u_p += t` keeps `v - d = sum_j u_j c_j` and the working equalities. Take the shorter of the
-//!    full step `t = (h_p - c_p . v)/|z|^2`, after which p is met, and the longest step with `u >= 0`.
-//! 3. After a full step add p to W and go to 1; otherwise drop the bound whose multiplier vanished and repeat 2. If there is
-//!    neither (`z = 0`, all `r_j <= 0`), bound p contradicts the bounds with `r_j < 0`: the problem is infeasible.
+//! 2. With `z` the part of `c_p` orthogonal to the working normals and `c_p - z = sum_j r_j c_j`, the move `v
+//!    += t z, u_j -= t r_j, u_p += t` keeps `v - d = sum_j u_j c_j` and the working equalities. Take the
+//!    shorter of the full step `t = (h_p - c_p . v)/|z|^2`, after which p is met, and the longest step with
+//!    `u >= 0`.
+//! 3. After a full step add p to W and go to 1; otherwise drop the bound whose multiplier vanished and repeat
+//!    2. If there is neither (`z = 0`, all `r_j <= 0`), bound p contradicts the bounds with `r_j < 0`: the
+//!    problem is infeasible.
 //!
-//! The distance from d grows in every full step, so no working set comes twice. Any W with non-negative multipliers may be
-//! the start; it is taken from the interior-point solution. After each change v and u are computed afresh from d, and
-//! violations are measured on x after it was moved exactly onto the working set, so errors do not add up.
+//! The distance from d grows in every full step, so no working set comes twice. Any W with non-negative
+//! multipliers may be the start; it is taken from the interior-point solution. After each change v and u are
+//! computed afresh from d, and violations are measured on x after it was moved exactly onto the working set,
+//! so errors do not add up.
 
 use super::dense::{Frame, add_scaled, dot};
 use super::reduce::{Factored, Reduced, Row};
@@ -54,7 +59,8 @@ pub(super) enum Stuck {
     Steps { steps: usize, violation: f64 },
 }
 
-/// Violations up to this much (relative to the bound if that is above 1) are rounding: a value is a sum of four products.
+/// Violations up to this much (relative to the bound if that is above 1) are rounding: a value is a sum of
+/// four products.
 const SATISFIED: f64 = 4e-15;
 /// A normal of which less than this part is left depends on the working normals.
 const DEPENDENT: f64 = 1e-10;
@@ -68,7 +74,8 @@ struct State {
     x: Vec<f64>,
 }
 
-/// The optimum, from a guess of the active bounds (in any order, dependent ones allowed). `e` are the equalities' values.
+/// The optimum, from a guess of the active bounds (in any order, dependent ones allowed). `e` are the
+/// equalities' values.
 pub(super) fn optimum(
     factored: &Factored,
     reduced: &Reduced,

@@ -1,8 +1,8 @@
 //! Orthonormal frames of a few dense vectors.
 //!
-//! The fits have 17 unknowns, so vectors in a list are matrix enough. Gram-Schmidt is run twice on every vector: "twice is
-//! enough" (Kahan and Parlett; Giraud, Langou and Rozloznik 2005) for orthogonality to rounding, unless the vector depends
-//! on the others, which is noticed and reported instead.
+//! The fits have 17 unknowns, so vectors in a list are matrix enough. Gram-Schmidt is run twice on every
+//! vector: "twice is enough" (Kahan and Parlett; Giraud, Langou and Rozloznik 2005) for orthogonality to
+//! rounding, unless the vector depends on the others, which is noticed and reported instead.
 
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
@@ -19,7 +19,8 @@ fn norm(a: &[f64]) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// Vectors `c_j = sum_{k <= j} r[j][k] q_k` with orthonormal `q_k`: a QR factorisation that grows column by column.
+/// Vectors `c_j = sum_{k <= j} r[j][k] q_k` with orthonormal `q_k`: a QR factorisation that grows column by
+/// column.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Frame {
     pub(super) q: Vec<Vec<f64>>,
@@ -55,8 +56,8 @@ impl Frame {
         true
     }
 
-    /// Appends the given vectors, the one that adds most first, until nothing longer than `tolerance` times the longest is
-    /// left. Returns their indices in the order of the frame.
+    /// Appends the given vectors, the one that adds most first, until nothing longer than `tolerance` times
+    /// the longest is left. Returns their indices in the order of the frame.
     pub(super) fn push_pivoted(&mut self, columns: &[Vec<f64>], tolerance: f64) -> Vec<usize> {
         let mut rest: Vec<Vec<f64>> = columns.iter().map(|c| self.project(c).1).collect();
         let smallest = tolerance * columns.iter().map(|c| norm(c)).fold(0.0, f64::max);
@@ -84,7 +85,8 @@ impl Frame {
         order
     }
 
-    /// The combination `x_j` of the vectors with components `y` along the frame: `sum_j x_j c_j = sum_k y_k q_k`.
+    /// The combination `x_j` of the vectors with components `y` along the frame: `sum_j x_j c_j = sum_k y_k
+    /// q_k`.
     pub(super) fn solve(&self, y: &[f64]) -> Vec<f64> {
         let mut x = y.to_vec();
         for j in (0..self.r.len()).rev() {

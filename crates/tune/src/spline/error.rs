@@ -31,7 +31,8 @@ pub enum FitError {
         /// What was given.
         degree: usize,
     },
-    /// A sample, interpolation point or bound lies outside the knots or is not a number, or a weight is not positive.
+    /// A sample, interpolation point or bound lies outside the knots or is not a number, or a weight is not
+    /// positive.
     #[error(
         "{what} {index} (lambda = {lambda}, value {value}): accepted are finite numbers with {lower} <= lambda <= {upper} and positive weights"
     )]

@@ -3,17 +3,17 @@
 //! Minimise `sum_i w_i (f(lambda_i) - y_i)^2` over the coefficients of f, subject to
 //!
 //! * `f(lambda) = y` at interpolation points, exactly;
-//! * all derivatives below the degree continuous at the *smooth* knots. The fit is then the one with a simple knot there, in
-//!   the coefficients that inserting it until it is multiple would give;
+//! * all derivatives below the degree continuous at the *smooth* knots. The fit is then the one with a simple
+//!   knot there, in the coefficients that inserting it until it is multiple would give;
 //! * lower and upper bounds at given lambdas.
 //!
-//! An interior-point solution (`interior` page) says which bounds may be active, a dual active-set method (`active_set` page)
-//! ends with exactly those that are, and the optimality conditions are measured afterwards on the problem as posed
-//! (`kkt` page).
+//! An interior-point solution (`interior` page) says which bounds may be active, a dual active-set method
+//! (`active_set` page) ends with exactly those that are, and the optimality conditions are measured
+//! afterwards on the problem as posed (`kkt` page).
 //!
-//! If a direction of the spline space is not determined by samples and equalities (a short knot interval without samples)
-//! a multiple of the curvature energy `int f''^2` is added, small against the samples' part, and reported as
-//! [`Fit::energy`]. Otherwise the objective is the sum above and nothing else.
+//! If a direction of the spline space is not determined by samples and equalities (a short knot interval
+//! without samples) a multiple of the curvature energy `int f''^2` is added, small against the samples' part,
+//! and reported as [`Fit::energy`]. Otherwise the objective is the sum above and nothing else.
 
 use super::active_set::{self, Inequality, Stuck};
 use super::error::{FitError, Side};
@@ -81,8 +81,8 @@ pub struct Fit {
     pub max_residual: f64,
     /// The lambda of the sample with the largest residual.
     pub worst_sample: f64,
-    /// The bounds that carry the optimum, independent of each other, in the order they were given. Where the spline lies on
-    /// a bound over an interval, further bounds hold with equality.
+    /// The bounds that carry the optimum, independent of each other, in the order they were given. Where the
+    /// spline lies on a bound over an interval, further bounds hold with equality.
     pub active: Vec<ActiveBound>,
     /// Defects of the optimality conditions.
     pub kkt: Kkt,
@@ -96,11 +96,11 @@ pub struct Fit {
     pub active_set_steps: usize,
 }
 
-/// Condition number of the samples' matrix up to which the samples are said to determine the spline. Beyond it, noise of
-/// 1e-8 in a sample, the accuracy of an optimiser, would show in the third digit.
+/// Condition number of the samples' matrix up to which the samples are said to determine the spline. Beyond
+/// it, noise of 1e-8 in a sample, the accuracy of an optimiser, would show in the third digit.
 const RANK_TOLERANCE: f64 = 1e-6;
-/// The energy's matrix entries relative to those of the samples, if it is needed. Its square times the curvature is the bias
-/// in directions which the samples do determine. Empirical.
+/// The energy's matrix entries relative to those of the samples, if it is needed. Its square times the
+/// curvature is the bias in directions which the samples do determine. Empirical.
 const ENERGY: f64 = 1e-4;
 /// What counts as determined once the energy is added.
 const RANK_TOLERANCE_WITH_ENERGY: f64 = 1e-11;
@@ -109,8 +109,8 @@ impl FitProblem<'_> {
     /// The constrained optimum.
     ///
     /// # Errors
-    /// [`FitError`]: points out of range or not finite, contradicting equalities, bounds that no spline satisfies, samples
-    /// that do not determine a spline.
+    /// [`FitError`]: points out of range or not finite, contradicting equalities, bounds that no spline
+    /// satisfies, samples that do not determine a spline.
     pub fn solve(&self) -> Result<Fit, FitError> {
         self.check()?;
         let n = self.knots.dimension();
@@ -305,8 +305,9 @@ pub(super) fn value_row(knots: &Knots, lambda: f64) -> Row {
     }
 }
 
-/// The conditions that derivatives 1 to p-1 are the same on both sides of a knot, scaled to unit norm; only those which its
-/// multiplicity leaves open. Derivatives beyond the second are not needed: degree 3 is the highest that is fitted.
+/// The conditions that derivatives 1 to p-1 are the same on both sides of a knot, scaled to unit norm; only
+/// those which its multiplicity leaves open. Derivatives beyond the second are not needed: degree 3 is the
+/// highest that is fitted.
 pub(super) fn continuity(knots: &Knots, lambda: f64) -> Result<Vec<Row>, FitError> {
     let (lower, upper) = knots.domain();
     let spans = knots.span_before(lambda).zip(knots.span(lambda));

@@ -1,7 +1,7 @@
 //! The quadratic programme by clarabel's interior-point method.
 //!
-//! `min 1/2 x^T P x + q^T x` subject to `A x + s = b`, s = 0 for equalities and s >= 0 for bounds, with `P = M^T M` and
-//! `q = -M^T y`; the unknowns are the original ones, nothing is eliminated.
+//! `min 1/2 x^T P x + q^T x` subject to `A x + s = b`, s = 0 for equalities and s >= 0 for bounds, with `P =
+//! M^T M` and `q = -M^T y`; the unknowns are the original ones, nothing is eliminated.
 
 use super::active_set::Inequality;
 use super::reduce::Row;

@@ -1,12 +1,14 @@
 //! Where the stencils have kinks, and which of them get the two free triple knots.
 //!
-//! The tuned f2 and f3 are smooth in lambda as long as the same bounds are active at the optimum, and s is given by the same
-//! formula. Where the active set changes between two neighbouring samples a kink lies between them, and both samples are
-//! candidates; the kinks of s are candidates where they are. A valence has more kinks than the structure of Eq. 21 has
-//! triple knots: lambda_c is lambda_l, one goes to its left (lambda_b), one to its right (lambda_d). The pair is chosen
-//! whose unconstrained least-squares splines of f2 and f3 leave the smallest residual.
+//! The tuned f2 and f3 are smooth in lambda as long as the same bounds are active at the optimum, and s is
+//! given by the same formula. Where the active set changes between two neighbouring samples a kink lies
+//! between them, and both samples are candidates; the kinks of s are candidates where they are. A valence has
+//! more kinks than the structure of Eq. 21 has triple knots: lambda_c is lambda_l, one goes to its left
+//! (lambda_b), one to its right (lambda_d). The pair is chosen whose unconstrained least-squares splines of
+//! f2 and f3 leave the smallest residual.
 //!
-//! Defaults, as in the paper's Table 1, stand in where there is no kink; there the splines stay twice differentiable.
+//! Defaults, as in the paper's Table 1, stand in where there is no kink; there the splines stay twice
+//! differentiable.
 
 use super::error::FitError;
 use super::fit::{continuity, value_row};
@@ -48,8 +50,8 @@ pub struct Candidate {
     pub slot: Slot,
     /// Why.
     pub source: Source,
-    /// Root mean square of the residuals of f2 and f3 with the best partner in the other slot; `None` if it leaves too few
-    /// samples between neighbouring triple knots.
+    /// Root mean square of the residuals of f2 and f3 with the best partner in the other slot; `None` if it
+    /// leaves too few samples between neighbouring triple knots.
     pub residual: Option<f64>,
 }
 
@@ -66,7 +68,8 @@ pub struct KnotChoice {
     pub candidates: Vec<Candidate>,
 }
 
-/// Samples strictly between neighbouring triple knots: as many as there are coefficients that no neighbour shares.
+/// Samples strictly between neighbouring triple knots: as many as there are coefficients that no neighbour
+/// shares.
 const NEEDED: usize = 3;
 /// As for a fit.
 const RANK_TOLERANCE: f64 = 1e-6;
@@ -74,8 +77,8 @@ const DEFAULTS: [f64; 5] = [0.2, 0.25, 0.3, 0.5, 0.55];
 
 /// Chooses lambda_b and lambda_d; see the module page.
 ///
-/// `samples` ascend in lambda; `ends` are lambda_a and lambda_e; `optimum` = (lambda, f2, f3) is interpolated; `analytic`
-/// are the kinks of s.
+/// `samples` ascend in lambda; `ends` are lambda_a and lambda_e; `optimum` = (lambda, f2, f3) is
+/// interpolated; `analytic` are the kinks of s.
 ///
 /// # Errors
 /// [`FitError::NoKnots`] if no pair leaves enough samples between neighbours.

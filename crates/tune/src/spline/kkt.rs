@@ -1,8 +1,10 @@
-//! Is it the constrained least-squares optimum? The Karush-Kuhn-Tucker conditions, measured on the problem as it was posed.
+//! Is it the constrained least-squares optimum? The Karush-Kuhn-Tucker conditions, measured on the problem as
+//! it was posed.
 //!
-//! x minimises the convex objective `1/2 |M x - y|^2` under `E x = e`, `A x >= b` if and only if there are multipliers with
-//! `M^T (M x - y) = E^T nu + A^T u`, `u >= 0` and `u_i (A x - b)_i = 0`. Nothing here comes from the solver but x and the
-//! indices of the bounds in its working set: the multipliers are the least-squares solution of the first equation.
+//! x minimises the convex objective `1/2 |M x - y|^2` under `E x = e`, `A x >= b` if and only if there are
+//! multipliers with `M^T (M x - y) = E^T nu + A^T u`, `u >= 0` and `u_i (A x - b)_i = 0`. Nothing here comes
+//! from the solver but x and the indices of the bounds in its working set: the multipliers are the
+//! least-squares solution of the first equation.
 
 use super::active_set::Inequality;
 use super::reduce::{Factored, Row};
@@ -10,7 +12,8 @@ use super::reduce::{Factored, Row};
 /// The largest defect of each condition; all are zero at an exact optimum.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Kkt {
-    /// Largest entry of `M^T (M x - y) - E^T nu - A^T u`, divided by the largest diagonal entry of `M^T M`: in units of x.
+    /// Largest entry of `M^T (M x - y) - E^T nu - A^T u`, divided by the largest diagonal entry of `M^T M`:
+    /// in units of x.
     pub stationarity: f64,
     /// Largest defect of an equality (continuity rows have unit norm).
     pub equality: f64,

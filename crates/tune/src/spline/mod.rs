@@ -1,8 +1,9 @@
 //! From tuned samples to spline stencils.
 //!
-//! Ma, Wang and Ma (2023, section 4.3) represent f2 and f3 as cubic splines of lambda, fitted to samples tuned at 100 lambdas
-//! a valence: [`FitProblem`] fits one function under interpolation conditions and bounds, [`choose_knots`] finds the kinks
-//! and chooses lambda_b and lambda_d among them, [`fit_stencils`] does f3 first and then f2, whose bounds depend on f3.
+//! Ma, Wang and Ma (2023, section 4.3) represent f2 and f3 as cubic splines of lambda, fitted to samples
+//! tuned at 100 lambdas a valence: [`FitProblem`] fits one function under interpolation conditions and
+//! bounds, [`choose_knots`] finds the kinks and chooses lambda_b and lambda_d among them, [`fit_stencils`]
+//! does f3 first and then f2, whose bounds depend on f3.
 
 mod active_set;
 mod dense;

@@ -1,10 +1,11 @@
 //! Least squares under equalities, as the distance from a point.
 //!
-//! `min 1/2 |M x - y|^2` subject to `E x = e`, with n unknowns. Let the columns of Z span the null space of E and let x0 be
-//! the shortest solution of the equalities: `x = x0 + Z t` meets them to rounding whatever t is. With `M Z = Q R`,
-//! `v = R t` and `d = Q^T (y - M x0)`, the objective is `1/2 |v - d|^2` and a constant: the unconstrained optimum is
-//! `v = d`, and inequalities `a . x >= b` become `c . v >= b - a . x0` with `c = R^-T Z^T a`. M enters through an
-//! orthogonal factorisation, never through `M^T M`, whose condition is the square.
+//! `min 1/2 |M x - y|^2` subject to `E x = e`, with n unknowns. Let the columns of Z span the null space of E
+//! and let x0 be the shortest solution of the equalities: `x = x0 + Z t` meets them to rounding whatever t
+//! is. With `M Z = Q R`, `v = R t` and `d = Q^T (y - M x0)`, the objective is `1/2 |v - d|^2` and a constant:
+//! the unconstrained optimum is `v = d`, and inequalities `a . x >= b` become `c . v >= b - a . x0` with `c =
+//! R^-T Z^T a`. M enters through an orthogonal factorisation, never through `M^T M`, whose condition is the
+//! square.
 
 use super::dense::{Frame, add_scaled, dot};
 
@@ -63,8 +64,8 @@ pub(super) struct Reduced {
     pub(super) target: Vec<f64>,
 }
 
-/// Relative length below which an equality is taken to depend on the others. Their entries are basis values, exact to a few
-/// units in the last place.
+/// Relative length below which an equality is taken to depend on the others. Their entries are basis values,
+/// exact to a few units in the last place.
 const DEPENDENT: f64 = 1e-11;
 
 impl<'a> Factored<'a> {
@@ -138,8 +139,8 @@ impl<'a> Factored<'a> {
         self.frame.solve_transposed(&along)
     }
 
-    /// Moves x by as little as possible onto the equalities and the given rows (`a . x = b`), which must be independent of
-    /// them, and returns the frame of all of these rows with the indices of its equalities.
+    /// Moves x by as little as possible onto the equalities and the given rows (`a . x = b`), which must be
+    /// independent of them, and returns the frame of all of these rows with the indices of its equalities.
     pub(super) fn settle(&self, x: &mut [f64], e: &[f64], active: &[(&Row, f64)]) -> (Frame, &[usize]) {
         let mut frame = self.range.clone();
         for (row, _) in active {
@@ -156,7 +157,8 @@ impl<'a> Factored<'a> {
         self.independent.iter().map(|&k| e[k] - self.equalities[k].dot(x))
     }
 
-    /// One step of refinement: adds the shortest vector whose products with the frame's vectors are the given defects.
+    /// One step of refinement: adds the shortest vector whose products with the frame's vectors are the given
+    /// defects.
     fn restore(&self, x: &mut [f64], frame: &Frame, defects: &[f64]) {
         let step = frame.combine(self.n, &frame.solve_transposed(defects));
         add_scaled(x, 1.0, &step);

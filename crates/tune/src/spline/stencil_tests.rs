@@ -106,7 +106,8 @@ fn stencils_stay_feasible_along_all_lambda() {
             d: lambda_d,
             e: 0.9,
         };
-        // the wish: smooth, and outside of the domain at many lambdas; the samples are the nearest feasible stencils
+        // the wish: smooth, and outside of the domain at many lambdas; the samples are the nearest feasible
+        // stencils
         let inner = Feasible { valence, margin: 2e-6 };
         let nearest = |lambda: f64| {
             let domain = inner.domain(lambda);

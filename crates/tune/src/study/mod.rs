@@ -1,9 +1,9 @@
 //! One valence from samples to spline stencils: everything that is tabulated.
 //!
-//! The steps of Ma, Wang and Ma (2023, section 4) in order: the global optimum over lambda, the branch of tuned stencils
-//! through it, the triple knots, the splines of f3 and f2, and the featured values of lambda. A [`Study`] is plain data;
-//! whatever it claims about its splines ([`Accuracy`]) is measured on the splines themselves, at lambdas other than
-//! those at which the fit imposed its bounds.
+//! The steps of Ma, Wang and Ma (2023, section 4) in order: the global optimum over lambda, the branch of
+//! tuned stencils through it, the triple knots, the splines of f3 and f2, and the featured values of lambda.
+//! A [`Study`] is plain data; whatever it claims about its splines ([`Accuracy`]) is measured on the splines
+//! themselves, at lambdas other than those at which the fit imposed its bounds.
 
 mod admissible;
 mod recommended;
@@ -19,12 +19,12 @@ use admissible::Admissible;
 use eigenring_scheme::lambda::{Entry, LambdaKnots, PAPER_TABLE_1, PaperRow, Relaxation};
 use serde::{Deserialize, Serialize};
 
-/// The relative margin with which the splines keep within the eigenvalue bounds: half of that of the samples, so that a
-/// spline may pass between them.
+/// The relative margin with which the splines keep within the eigenvalue bounds: half of that of the samples,
+/// so that a spline may pass between them.
 pub const SPLINE_MARGIN: f64 = 1e-6;
 
-/// Lambdas in equal steps, besides the samples and the kinks of s, at which the splines' bounds are imposed first. Between them
-/// a spline may pass a bound; see [`fit_feasible`].
+/// Lambdas in equal steps, besides the samples and the kinks of s, at which the splines' bounds are imposed
+/// first. Between them a spline may pass a bound; see [`fit_feasible`].
 const DENSE: usize = 2000;
 
 /// The splines are checked on steps this many times shorter.
@@ -33,12 +33,12 @@ const FINER: usize = 8;
 /// A bound missed by less than this is met: rounding of f2 and f3.
 const MET: f64 = 1e-12;
 
-/// Rounds of imposing bounds where they were missed; two to four are usual, as each shortens the steps there and the miss is
-/// quadratic in the step.
+/// Rounds of imposing bounds where they were missed; two to four are usual, as each shortens the steps there
+/// and the miss is quadratic in the step.
 const ROUNDS: usize = 12;
 
-/// Coefficients below this are zero: where a bound f3 >= 0 holds over an interval, the exact coefficients vanish, and the
-/// fit's are rounding errors.
+/// Coefficients below this are zero: where a bound f3 >= 0 holds over an interval, the exact coefficients
+/// vanish, and the fit's are rounding errors.
 const ZERO: f64 = 1e-13;
 
 /// Which triple knots.
@@ -97,7 +97,8 @@ pub struct KnotCandidate {
     pub slot: String,
     /// "active_set", "relaxation" or "default".
     pub source: String,
-    /// Root mean square residual of an unconstrained fit with the best partner; none if too few samples lie between.
+    /// Root mean square residual of an unconstrained fit with the best partner; none if too few samples lie
+    /// between.
     pub residual: Option<f64>,
 }
 
@@ -119,8 +120,8 @@ pub struct SplineTable {
 /// A featured lambda.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Featured {
-    /// The name in the paper's Table 1: lambda_r1, lambda_b, lambda_A, lambda_l, lambda_M, lambda_CC, lambda_d, lambda_C,
-    /// lambda_r2.
+    /// The name in the paper's Table 1: lambda_r1, lambda_b, lambda_A, lambda_l, lambda_M, lambda_CC,
+    /// lambda_d, lambda_C, lambda_r2.
     pub name: String,
     /// The value.
     pub lambda: f64,
@@ -149,8 +150,8 @@ pub struct Accuracy {
     pub excess_overall: f64,
     /// Smallest `1 - |lambda_6| / mu` over 16000 lambdas in equal steps, the samples and the kinks of s.
     pub strictness: f64,
-    /// Smallest slack of all constraints over the same lambdas, with the margin of [`SPLINE_MARGIN`]: negative only by
-    /// rounding.
+    /// Smallest slack of all constraints over the same lambdas, with the margin of [`SPLINE_MARGIN`]:
+    /// negative only by rounding.
     pub slack: f64,
     /// The lambda of the smallest slack.
     pub slack_at: f64,
@@ -190,19 +191,20 @@ pub fn paper_row(valence: usize) -> Option<&'static PaperRow> {
     PAPER_TABLE_1.iter().find(|row| row.valence == valence)
 }
 
-/// The subdominant eigenvalue of Catmull-Clark subdivision: `(5 + c + sqrt((c+9)(c+1)))/16`, `c = cos(2 pi/N)`.
+/// The subdominant eigenvalue of Catmull-Clark subdivision: `(5 + c + sqrt((c+9)(c+1)))/16`, `c = cos(2
+/// pi/N)`.
 pub fn lambda_catmull_clark(valence: usize) -> f64 {
     let c = (std::f64::consts::TAU / valence as f64).cos();
     (5.0 + c + ((c + 9.0) * (c + 1.0)).sqrt()) / 16.0
 }
 
 impl Study {
-    /// Everything that follows from the samples of one valence, which must be those of `range`, ascending in lambda, computed
-    /// with the same options.
+    /// Everything that follows from the samples of one valence, which must be those of `range`, ascending in
+    /// lambda, computed with the same options.
     ///
     /// # Errors
-    /// Those of the steps; [`Error::Fit`] if lambda_l is not inside the range (N > 23 with the paper's range): the
-    /// structure of Eq. 21 has a triple knot there.
+    /// Those of the steps; [`Error::Fit`] if lambda_l is not inside the range (N > 23 with the paper's
+    /// range): the structure of Eq. 21 has a triple knot there.
     pub fn new(samples: &[Sample], range: &Range, options: &Options, knots: Knots) -> Result<Self, Error> {
         let global = global(samples, options)?;
         let optimum = global.optimum();
@@ -217,8 +219,8 @@ impl Study {
         let (values, kinks, candidates) =
             choose(&labelled, range, &relaxation, interpolated, knots, valence).map_err(failed)?;
         let admissible = Admissible::new(relaxation, options, SPLINE_MARGIN, &samples);
-        // at the kink lambda_l the sample stands for both sides; at N = 3 mu is next to the outer rings' 1/8 there, and E rises by
-        // orders of magnitude within the distance that a least-squares spline leaves
+        // at the kink lambda_l the sample stands for both sides; at N = 3 mu is next to the outer rings' 1/8
+        // there, and E rises by orders of magnitude within the distance that a least-squares spline leaves
         let at_kink = labelled
             .iter()
             .filter(|sample| sample.lambda == lambda_l && sample.lambda != optimum.lambda);
@@ -399,8 +401,8 @@ fn steps(range: &Range, relaxation: &Relaxation, count: usize) -> Vec<f64> {
     lambdas
 }
 
-/// Fits with bounds at every lambda of a fine grid, though only those at a coarser one and at those that were missed are
-/// imposed: the exchange method of semi-infinite programming.
+/// Fits with bounds at every lambda of a fine grid, though only those at a coarser one and at those that were
+/// missed are imposed: the exchange method of semi-infinite programming.
 fn fit_feasible(
     knots: &LambdaKnots,
     kinks: [bool; 3],

@@ -1,10 +1,10 @@
 //! The branch of local minima through the global optimum.
 //!
-//! From one lambda to the next the branch is followed by predictor and corrector: (f2, f3) is extrapolated linearly, and a descent
-//! starts there. A local minimum moves continuously with lambda, at kinks with a jump in velocity, so a correction that is
-//! long for its step of lambda is suspected of having changed basins, and the step is halved until corrections are short. Where a
-//! basin ends (it merges with a saddle point) no step is small enough: the sample is marked, and the branch goes on from where the
-//! descent led.
+//! From one lambda to the next the branch is followed by predictor and corrector: (f2, f3) is extrapolated
+//! linearly, and a descent starts there. A local minimum moves continuously with lambda, at kinks with a jump
+//! in velocity, so a correction that is long for its step of lambda is suspected of having changed basins,
+//! and the step is halved until corrections are short. Where a basin ends (it merges with a saddle point) no
+//! step is small enough: the sample is marked, and the branch goes on from where the descent led.
 
 use super::{Error, Minimum, Options, Problem, Sample};
 use crate::search;
@@ -72,26 +72,31 @@ impl Point {
     }
 }
 
-/// A correction of (f2, f3) by more than `SPEED` times the step of lambda plus `SLACK` is suspicious. Velocities change by less than
-/// 1 over a step, except at kinks, where steps are halved a few times in vain. At N = 3 basins are 0.03 and more apart.
+/// A correction of (f2, f3) by more than `SPEED` times the step of lambda plus `SLACK` is suspicious.
+/// Velocities change by less than 1 over a step, except at kinks, where steps are halved a few times in vain.
+/// At N = 3 basins are 0.03 and more apart.
 const SPEED: f64 = 1.0;
 
 /// See [`SPEED`].
 const SLACK: f64 = 1e-3;
 
-/// Velocities above this, the effect of jumps, predict nothing. Up to 7 are usual, N = 4 near lambda = 0.15 reaches 100.
+/// Velocities above this, the effect of jumps, predict nothing. Up to 7 are usual, N = 4 near lambda = 0.15
+/// reaches 100.
 const VELOCITY: f64 = 10.0;
 
 /// How often a step of lambda is halved before a jump is accepted: to steps of 1e-5.
 const HALVINGS: usize = 10;
 
-/// Values that differ relatively by less than this are the same minimum's; rounding of E reaches 1e-10 near mu = 1/8.
+/// Values that differ relatively by less than this are the same minimum's; rounding of E reaches 1e-10 near
+/// mu = 1/8.
 const SAME: f64 = 1e-8;
 
-/// By how much a descent that stops short in a narrow valley may miss its minimum, relatively. Observed: 2e-6.
+/// By how much a descent that stops short in a narrow valley may miss its minimum, relatively. Observed:
+/// 2e-6.
 const SHORT: f64 = 1e-5;
 
-/// Connects samples, ascending in lambda, to the branch through the minimum (f2, f3) at `lambda` (which need not be a sample).
+/// Connects samples, ascending in lambda, to the branch through the minimum (f2, f3) at `lambda` (which need
+/// not be a sample).
 ///
 /// # Errors
 /// [`Error::Samples`] for samples that do not belong together, and any [`Error`] about a single lambda.
@@ -160,8 +165,8 @@ fn connect(sample: &Sample, from: Point, options: &Options) -> Result<(BranchSam
     let reached = walk.step(from, sample.lambda, HALVINGS)?;
     let (problem, optimum) = (reached.problem, reached.optimum);
     let at = [optimum.f2, optimum.f3];
-    // a minimum that the search has found too is taken as it was found; in the narrow valleys of N = 3 near mu = 1/8 one of the two
-    // descents may have stopped short, and the better one counts
+    // a minimum that the search has found too is taken as it was found; in the narrow valleys of N = 3 near
+    // mu = 1/8 one of the two descents may have stopped short, and the better one counts
     let known = |minimum: &&Minimum| {
         let other = [minimum.f2, minimum.f3];
         let near = (other[0] - at[0]).abs().max((other[1] - at[1]).abs()) <= SLACK;

@@ -56,9 +56,10 @@ impl fmt::Display for InfeasiblePoint {
 impl std::error::Error for InfeasiblePoint {}
 
 impl Plane<f64> {
-    /// Every constraint of this valence with its slack at (f2, f3): negative where violated, and minus infinity where the
-    /// stencil is not defined. Units are those of the weight, of the eigenvalue, or for theta of f2:
-    /// `2 f2 cos(pi/N) - (lambda-f3)`. Computed from the stencil and the spectrum, not from the curves of [`Domain`].
+    /// Every constraint of this valence with its slack at (f2, f3): negative where violated, and minus
+    /// infinity where the stencil is not defined. Units are those of the weight, of the eigenvalue, or for
+    /// theta of f2: `2 f2 cos(pi/N) - (lambda-f3)`. Computed from the stencil and the spectrum, not from the
+    /// curves of [`Domain`].
     pub fn slack(&self, bounds: Bounds, margin: f64, f2: f64, f3: f64) -> Vec<(Constraint, f64)> {
         let (plane, n, m) = (self, self.valence, (1.0 - margin) * self.mu());
         let w = plane.stencil(f2, f3).weights;
@@ -107,7 +108,8 @@ impl Plane<f64> {
         slack
     }
 
-    /// The last eigenvalue of block 0, beside 1 and mu; like the stencil not a number where beta's denominator and `h` vanish.
+    /// The last eigenvalue of block 0, beside 1 and mu; like the stencil not a number where beta's
+    /// denominator and `h` vanish.
     pub fn z0(&self, f2: f64, f3: f64) -> f64 {
         let (g3, h) = self.g3_and_h(f3);
         let beta = self.stencil(f2, f3).weights.beta;
@@ -116,7 +118,8 @@ impl Plane<f64> {
 }
 
 impl Domain {
-    /// Every constraint of this valence with its slack at (f2, f3): [`Plane::slack`] with this domain's bounds and margin.
+    /// Every constraint of this valence with its slack at (f2, f3): [`Plane::slack`] with this domain's
+    /// bounds and margin.
     pub fn slack(&self, f2: f64, f3: f64) -> Vec<(Constraint, f64)> {
         self.plane.slack(self.bounds, self.margin, f2, f3)
     }
@@ -126,8 +129,8 @@ impl Domain {
         self.slack(f2, f3).iter().all(|&(_, slack)| slack >= 0.0)
     }
 
-    /// Accepts points of the domain and those within `tolerance` of it: f3 within `tolerance` of its range, and f2 within
-    /// `tolerance` of an interval at the nearest f3 of the range.
+    /// Accepts points of the domain and those within `tolerance` of it: f3 within `tolerance` of its range,
+    /// and f2 within `tolerance` of an interval at the nearest f3 of the range.
     ///
     /// # Errors
     /// [`Error::Point`] with the missed bound, its distance, and what is accepted.
@@ -170,8 +173,8 @@ impl Domain {
         }
     }
 
-    /// The point with f3 moved into its range and then f2 to the nearest feasible one: the identity on the domain. `None`
-    /// for a NaN, or where the row is empty.
+    /// The point with f3 moved into its range and then f2 to the nearest feasible one: the identity on the
+    /// domain. `None` for a NaN, or where the row is empty.
     pub fn clamp(&self, f2: f64, f3: f64) -> Option<[f64; 2]> {
         let f3 = f3.clamp(self.f3[0].f3, self.f3[1].f3);
         let candidates = self.f2_intervals(f3).into_iter();

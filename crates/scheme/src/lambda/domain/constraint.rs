@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-/// What an admissible stencil fulfils. `m = (1 - kappa) mu` is the bound of all eigenvalues other than 1, lambda and mu.
+/// What an admissible stencil fulfils. `m = (1 - kappa) mu` is the bound of all eigenvalues other than 1,
+/// lambda and mu.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Constraint {

@@ -1,6 +1,7 @@
 //! The boundary curves, over any scalar.
 //!
-//! With `T = g3 + 2h + f3`, `A0 = g3 + 2h - mu + phi (f3-mu)` and `W = (1+phi) h mu (1-c2)`, the vertex stencil has
+//! With `T = g3 + 2h + f3`, `A0 = g3 + 2h - mu + phi (f3-mu)` and `W = (1+phi) h mu (1-c2)`, the vertex
+//! stencil has
 //!
 //! ```text
 //! (1+phi) beta = W / (2 f2 + phi h f3/f2 - A0),     z0 = T - mu - (1+phi) beta
@@ -14,8 +15,9 @@
 //! z0 <= m                  (1+phi) beta >= T - (2-kappa) mu
 //! ```
 //!
-//! and, multiplied out, becomes a sign of the quadratic `2 f2^2 - b f2 + phi h f3` with `b = A0 + W/v`. Its smaller root is
-//! computed as the product of the roots over the larger one, which loses no digits where `h f3` is small.
+//! and, multiplied out, becomes a sign of the quadratic `2 f2^2 - b f2 + phi h f3` with `b = A0 + W/v`. Its
+//! smaller root is computed as the product of the roots over the larger one, which loses no digits where `h
+//! f3` is small.
 
 use super::{Curve, Domain, Root};
 use crate::lambda::Plane;
@@ -84,8 +86,9 @@ impl Domain {
         }
     }
 
-    /// `f2 = curve(f3)` over any scalar. Meant for f3 at which the curve exists, see [`Domain::curve`]; elsewhere the root
-    /// of a negative number is taken. At N = 4, where f3 is fixed, derivatives along f3 have no meaning.
+    /// `f2 = curve(f3)` over any scalar. Meant for f3 at which the curve exists, see [`Domain::curve`];
+    /// elsewhere the root of a negative number is taken. At N = 4, where f3 is fixed, derivatives along f3
+    /// have no meaning.
     pub fn curve_over<S: Scalar + Copy>(&self, curve: Curve, f3: S) -> S {
         let plane = self.plane_over::<S>();
         let (one, two, mu, kappa) = (S::one(), S::ratio(2, 1), plane.mu(), S::exact(self.margin));

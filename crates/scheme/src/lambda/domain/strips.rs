@@ -1,9 +1,10 @@
 //! The domain cut into strips along f3: a map of its arcs and vertices.
 //!
-//! Inside a strip the same curves bound the same number of intervals of f2, so the boundary of the domain consists of the
-//! strips' arcs and of the edges at the ends of the range of f3. The vertices lie at the strips' ends: there one curve
-//! takes over from another, or a lower and an upper curve meet, and with them an interval ends or the gap between two
-//! intervals closes (with a vertical tangent, if the two are the roots of one quadratic).
+//! Inside a strip the same curves bound the same number of intervals of f2, so the boundary of the domain
+//! consists of the strips' arcs and of the edges at the ends of the range of f3. The vertices lie at the
+//! strips' ends: there one curve takes over from another, or a lower and an upper curve meet, and with them
+//! an interval ends or the gap between two intervals closes (with a vertical tangent, if the two are the
+//! roots of one quadratic).
 
 use super::{Curve, Domain, F2Interval};
 
@@ -12,7 +13,8 @@ use super::{Curve, Domain, F2Interval};
 pub struct Strip {
     /// From and to which f3; neighbouring strips share an end up to rounding.
     pub f3: [f64; 2],
-    /// Lower and upper curve of each interval of f2, ascending; empty where nothing is feasible (phi other than 6).
+    /// Lower and upper curve of each interval of f2, ascending; empty where nothing is feasible (phi other
+    /// than 6).
     pub curves: Vec<[Curve; 2]>,
 }
 
@@ -23,8 +25,8 @@ fn structure(intervals: &[F2Interval]) -> Structure {
 }
 
 impl Domain {
-    /// The strips, ascending in f3. Their ends are found to a few rounding units; strips that lie between two neighbouring
-    /// rows of 256 with equal structure are not seen.
+    /// The strips, ascending in f3. Their ends are found to a few rounding units; strips that lie between two
+    /// neighbouring rows of 256 with equal structure are not seen.
     pub fn strips(&self) -> Vec<Strip> {
         let at = |f3: f64| structure(&self.f2_intervals(f3));
         let [low, high] = self.f3.map(|end| end.f3);

@@ -6,8 +6,8 @@ use crate::lambda::Relaxation;
 use approx::assert_relative_eq;
 use std::f64::consts::PI;
 
-/// The smallest slack of the definitions at a point: weights, eigenvalues of the Fourier blocks, angle of the natural
-/// configuration. Uses nothing of the domain, and of the plane only its stencil.
+/// The smallest slack of the definitions at a point: weights, eigenvalues of the Fourier blocks, angle of the
+/// natural configuration. Uses nothing of the domain, and of the plane only its stencil.
 fn direct(plane: &Plane<f64>, bounds: Bounds, margin: f64, f2: f64, f3: f64) -> f64 {
     let n = plane.valence;
     let stencil = plane.stencil(f2, f3);
@@ -66,8 +66,8 @@ fn direct(plane: &Plane<f64>, bounds: Bounds, margin: f64, f2: f64, f3: f64) -> 
     worst
 }
 
-/// (points, feasible ones, disagreements) of the closed forms and of `contains` with the definitions, on a grid of the
-/// whole triangle and one around the domain.
+/// (points, feasible ones, disagreements) of the closed forms and of `contains` with the definitions, on a
+/// grid of the whole triangle and one around the domain.
 fn compare(domain: &Domain, size: usize) -> [usize; 3] {
     let plane = *domain.plane();
     let [lower, upper] = domain.f3_range().map(|end| end.f3);
@@ -154,7 +154,8 @@ fn closed_forms_agree_with_the_definitions_at_large_margins() {
 
 #[test]
 fn lowest_f3_at_valence_three() {
-    // z0 = mu meets the theta bound f2 = lambda - f3; values of an independent computation, given to four digits
+    // z0 = mu meets the theta bound f2 = lambda - f3; values of an independent computation, given to four
+    // digits
     for (lambda, lowest) in [
         (0.16, 0.1276),
         (0.25, 0.1352),
