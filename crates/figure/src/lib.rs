@@ -19,7 +19,8 @@
 //!     .vertical(0.5, "$λ_M^*$", Stroke { dash: Dash::Dashed, ..Stroke::solid(Colour::GREY, 0.2) })
 //!     .series(parabola, Style::line(0)).label("$λ^2$")
 //!     .series(samples, Style::points(Marker::Circle, Colour::line(1))).label("samples");
-//! let figure = Figure::new(Width::One, 60.0, "A parabola").panel(0, 0, Panel::new(chart).legend(Side::Bottom));
+//! let panel = Panel::new(chart).legend(Side::Bottom);
+//! let figure = Figure::new(Width::One, 60.0, "A parabola").panel(0, 0, panel);
 //! assert!(figure.layout()?.faults().is_empty());
 //! let svg: String = figure.svg()?;
 //! let png: Vec<u8> = figure.png(300.0)?;
@@ -33,7 +34,8 @@
 //! use eigenring_figure::{Chart, ColourMap, ColourScale, Figure, Panel, Surface, View, Width};
 //!
 //! let scale = ColourScale::new(ColourMap::Viridis, (0.0, 2.0), "height $z$");
-//! let cells = (0..4).map(|k| f64::from(k)).map(|x| (vec![[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 2.0], [x, 2.0]], x / 2.0));
+//! let strip = |x: f64| vec![[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 2.0], [x, 2.0]];
+//! let cells = (0..4).map(|k| f64::from(k)).map(|x| (strip(x), x / 2.0));
 //! let map = Chart::map((0.0, 4.0), (0.0, 2.0)).cells(cells, &scale);
 //! let quad = [[0.0, 0.0, 0.0], [1.0, 0.0, 1.0], [1.0, 1.0, 2.0], [0.0, 1.0, 1.0]];
 //! let surface = Surface::new(View::default()).quads([(quad, 1.0)], &scale);

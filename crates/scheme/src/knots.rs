@@ -5,8 +5,10 @@
 //! insertion of a knot in the middle of each interval):
 //!
 //! ```text
-//! E_j = ((d_j + 2 d_(j+1)) P_j + (d_j + 2 d_(j-1)) P_(j+1)) / (2 (d_(j-1) + d_j + d_(j+1)))     all three zero: the mean
-//! V_j = P_j / 2 + (d_j E_(j-1) + d_(j-1) E_j) / (2 (d_(j-1) + d_j))                             both zero: P_j
+//! E_j = ((d_j + 2 d_(j+1)) P_j + (d_j + 2 d_(j-1)) P_(j+1)) / (2 (d_(j-1) + d_j + d_(j+1)))
+//! V_j = P_j / 2 + (d_j E_(j-1) + d_(j-1) E_j) / (2 (d_(j-1) + d_j))
+//!
+//! all three intervals of E_j zero: the mean;   both of V_j zero: P_j
 //! ```
 //!
 //! Zero intervals, which are multiple knots, need nothing else.

@@ -59,7 +59,7 @@ fn on_kept(block: &Block, entry: &Entry, value: Interval) -> Option<Vec<Interval
     Some(vector)
 }
 
-/// The eigenvector of a simple real eigenvalue on all unknowns of its block; see [`modulo_constants`]. `None`
+/// The eigenvector of a simple real eigenvalue on all unknowns of its block; see `modulo_constants`. `None`
 /// also if the constant vector's eigenvalue 1 was not proven to be another one.
 pub fn eigenvector(block: &Block, entry: &Entry, value: Interval) -> Option<Vec<Interval>> {
     let mut vector = modulo_constants(block, entry, value)?;

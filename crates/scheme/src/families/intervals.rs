@@ -9,7 +9,8 @@
 //! ```text
 //! P_i'    = (P_i + C)/2 + alpha_i (-n P_i + sum_j (1 + 2 cos(2 pi (j-i)/n)) P_j),     C = sum_i beta_i P_i
 //! alpha_i = (1/n) d_i/(d_i + d_(i+2)) d_(i+1)/(d_(i+1) + d_(i-1))
-//! beta_i  = [(d_(i-1) + d_(i+3)) d_(i+2) + (d_(i-2) + d_(i+2)) d_(i-1)] / sum_j (d_j + d_(j+2)) (d_(j-1) + d_(j+3))
+//! beta_i  = [(d_(i-1) + d_(i+3)) d_(i+2) + (d_(i-2) + d_(i+2)) d_(i-1)]
+//!           / sum_j (d_j + d_(j+2)) (d_(j-1) + d_(j+3))
 //! ```
 
 use super::doo_sabin::CORNER;

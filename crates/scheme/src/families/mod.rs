@@ -1,4 +1,4 @@
-//! The built-in families, one file each: a constructor that returns a [`Scheme`](crate::Scheme).
+//! The built-in families, one file each: a constructor that returns a [`Scheme`].
 
 mod catmull_clark;
 mod doo_sabin;

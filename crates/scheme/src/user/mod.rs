@@ -33,10 +33,11 @@
 //! [[valence.pass]]                 # passes in order; the refined net must be of the kind that is read first
 //! from = "face"
 //! to = "face"
-//! # one class of taps per target point and source point: [offset, weight], the target X reads (X + offset) / classes
+//! # one class of taps per target point and source point: [offset, weight];
+//! # the target X reads (X + offset) / classes
 //! line = [[[1, "3/4"], [-3, "1/4"]], [[-1, "3/4"], [3, "1/4"]]]
 //!
-//! [[valence.pass.special]]         # a point with a stencil of its own, in sector 0 unless `sector` says otherwise
+//! [[valence.pass.special]]   # a point with a stencil of its own, in sector 0 unless `sector` says otherwise
 //! at = [1, 1]
 //! stencil = [
 //!     { at = [1, 1], weight = "2/3" },

@@ -7,7 +7,7 @@
 //! conj g)`,
 //!
 //! ```text
-//! q = q0 + Re(t q1 + t^2 q2),  K = k0 + Re(t k1)           (K signed so that the ideal saddle has K = fit^2 > 0)
+//! q = q0 + Re(t q1 + t^2 q2),  K = k0 + Re(t k1)         (K signed so that the ideal saddle has fit^2 > 0)
 //! q0 = tau (|T|^2 + 3/2 |v|^2) + (3 |g|^2 + sign Re g^2)/2 + kappa (3 |y|^2 + sign Re y^2)/2
 //! q1 = sign (tau T^2 + v conj B),  q2 = sign tau v^2 / 2
 //! k0 = |v|^2 + |y|^2 - |T|^2/2,  k1 = sign (2 v conj y - T^2/2)
