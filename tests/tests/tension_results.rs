@@ -1,5 +1,5 @@
-//! **Claim**: the eigenvalues in `results/tension` are those of the local matrices, and the moduli fall as `1
-//! > |lambda_1| = |lambda_2| > |lambda_3|` over the whole sweep but for the exceptions that are listed.
+//! **Claim**: the eigenvalues in `results/tension` are those of the local matrices, and the moduli fall as
+//! `1 > |lambda_1| = |lambda_2| > |lambda_3|` over the whole sweep but for the exceptions that are listed.
 //! **Oracles**: closed forms of order 3, Catmull-Clark (Ball and Storry 1988), regular nets; the limit u = 1
 //! that the levels approach; matrices computed here.
 

@@ -296,8 +296,8 @@ fn enclosed(exact: &Scheme<Exact>) -> Scheme<Interval> {
 /// ```
 ///
 /// (expand; the terms in `beta^2` cancel). At `x = mu`, `p_0(mu) = p_2(mu) - h (1 - c2) mu = -h (1 - c2) mu`,
-/// so that the value is zero exactly for the beta of [`Plane`]. Row sums are `f1 + 2 f2 + f3 = 1`, hence `d1
-/// + d2 + 2 e1 + 2 e2 = g1 + g3 + 2 g2 (f1 + 2 f2 + f3) = 1`. At valence 4 all this holds for `f3 = mu`,
+/// so that the value is zero exactly for the beta of [`Plane`]. Row sums are `f1 + 2 f2 + f3 = 1`, hence
+/// `d1 + d2 + 2 e1 + 2 e2 = g1 + g3 + 2 g2 (f1 + 2 f2 + f3) = 1`. At valence 4 all this holds for `f3 = mu`,
 /// where g3 and h are given by continuation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Identities {

@@ -5,6 +5,21 @@
 //! [`refine`] runs passes on any [`Net`]. Families are constructors in [`families`] and [`lambda`]; user
 //! schemes come from TOML through [`user`]; [`Spec`] finds a scheme by name. All of it is generic over the
 //! [`Scalar`].
+//!
+//! A [`Definition`] is a scheme at all [`Corner`]s: ask it for the rules around one, and the rules for what
+//! follows from them. Symmetry and degree are derived, and never stated:
+//!
+//! ```
+//! use eigenring_scheme::{Corner, Definition, Scheme, Spec, Symmetry};
+//!
+//! let definition = Definition::Family("catmull-clark".parse::<Spec>()?);
+//! let inner: Scheme<f64> = definition.around(&definition.closed(5)?)?;
+//! assert_eq!((inner.limit().symmetry(), inner.degree()), (Symmetry::Dihedral, Some(3)));
+//! // a boundary vertex with two faces: no rule reads beyond the boundary
+//! let boundary: Scheme<f64> = definition.around(&Corner::fan(2)?)?;
+//! assert_eq!((boundary.limit().symmetry(), boundary.closed_rings()?), (Symmetry::None, 1));
+//! # Ok::<(), eigenring_scheme::Error>(())
+//! ```
 
 mod corner;
 mod definition;

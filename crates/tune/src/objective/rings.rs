@@ -1,7 +1,7 @@
 //! Eigenvectors of the local matrix, continued outwards from the first ring.
 //!
-//! The points of a Fourier mode are `P_i(a,b) = v(a,b) w^{k i}` with `w = exp(2 pi i/N)`, where P_i(a,b), a
-//! >= 1, b >= 0, sits `a` steps along spoke `i` and `b` steps along spoke `i+1`. Points of ring >= 2 are
+//! The points of a Fourier mode are `P_i(a,b) = v(a,b) w^{k i}` with `w = exp(2 pi i/N)`, where P_i(a,b),
+//! a >= 1, b >= 0, sits `a` steps along spoke `i` and `b` steps along spoke `i+1`. Points of ring >= 2 are
 //! refined by the uniform bicubic rule, so once the first ring and the eigenvalue are given, ring 2 follows
 //! from a 4x4 system (whose matrix has the eigenvalues 1/8, 1/16, 1/32, 1/64 in every mode) and rings 3 to 5
 //! explicitly. No tuned weight acts beyond the first ring: at a fixed eigenvalue the outer rings depend
