@@ -5,7 +5,8 @@
 //! stencils around a vertex of valence N have nine weights. Demanding affine invariance, the eigenvalue
 //! `lambda` in Fourier blocks 1 and N-1, the eigenvalue `mu = s lambda^2` in blocks 0, 2 and N-2, and
 //! `alpha = phi beta` leaves two free weights, `f2` and `f3`, of the face stencil: a [`Plane`].
-//! The [`Relaxation`] says which `s` belongs to a lambda, the [`Domain`] which part of the plane gives admissible stencils.
+//! The [`Relaxation`] says which `s` belongs to a lambda, the [`Domain`] which part of the plane gives
+//! admissible stencils.
 
 mod domain;
 mod knots;
