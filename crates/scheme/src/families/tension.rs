@@ -11,11 +11,11 @@
 //! `1/N^2` of **each** face neighbour.
 //!
 //! **Odd orders** (around a face of valence N): corner cutting in which the N-gon's new corner keeps
-//! `(N u^2 + (2N-4) u + 1) / (N (1+u)^2)` and takes `(1+2u) / (N (1+u)^2)` of each of its two neighbours
-//! in the face and `1 / (N (1+u)^2)` of each other corner; then `(k-3)/2` uniform smoothings. The published
-//! smoothing mask 1/4, 1/8, 1/16 has no unique opposite corner beside an N-gon; here a point becomes the mean of the
-//! centroids of its four faces, with the N-gon's true centroid, which is the mask where all faces are
-//! quadrilaterals.
+//! `(N u^2 + (2N-4) u + 1) / (N (1+u)^2)` and takes `(1+2u) / (N (1+u)^2)` of each of its two neighbours in
+//! the face and `1 / (N (1+u)^2)` of each other corner; then `(k-3)/2` uniform smoothings. The published
+//! smoothing mask 1/4, 1/8, 1/16 has no unique opposite corner beside an N-gon; here a point becomes the
+//! mean of the centroids of its four faces, with the N-gon's true centroid, which is the mask where all
+//! faces are quadrilaterals.
 
 use super::doo_sabin::CORNER;
 use crate::{Error, Fan, Lattice, Level, Line, Pass, Same, Scalar, Scheme, Site, Stencil};
