@@ -3,15 +3,16 @@
 use crate::error::Error;
 use crate::progress::each;
 use crate::schemes::{SchemeName, Tuner};
+use crate::spectrum::Analysis;
 use crate::table::Table;
 use eigenring_scheme::Scheme;
-use eigenring_spectral::LocalSystem;
+use eigenring_spectral::outer;
 use eigenring_tune::quality::Quality;
 
 /// Gauss points per patch and direction, as in the tuning.
 const QUADRATURE: usize = 5;
 
-/// Eigenvalues closer than this, relatively, are one.
+/// How far the dominant eigenvalue may be from 1: rounding, with room for condition numbers up to 1e6.
 const EQUAL: f64 = 1e-9;
 
 /// What is compared of a scheme at a valence. Numbers that are not defined for it are absent.
@@ -34,11 +35,12 @@ pub struct Row {
     pub theta: Option<f64>,
     /// `1 - |mu| / lambda`.
     pub gap: Option<f64>,
-    /// `1 - |next eigenvalue| / mu`.
+    /// How far all further eigenvalues are below the three of the quadratic terms, as
+    /// [`Spectrum::strictness`](eigenring_spectral::Spectrum::strictness) says; absent where they are not.
     pub strict: Option<f64>,
-    /// The smallest weight of a special stencil of the limit level.
+    /// The smallest weight, of those that are not zero, of the rules of one level, passes composed.
     pub hull: Option<f64>,
-    /// Why the maps could not be measured; empty where they were.
+    /// What is wrong with the scheme, or why its maps could not be measured; empty where nothing is.
     pub remark: String,
 }
 
@@ -48,17 +50,40 @@ impl Row {
     /// # Errors
     /// Those of its local system. Maps that do not exist are no error, but a remark.
     pub fn new(name: &str, scheme: &Scheme<f64>) -> Result<Self, Error> {
-        let spectrum = LocalSystem::new(scheme.limit(), scheme.closed_rings()?)?.spectrum()?;
-        let lambda = spectrum.subdominant().map(|e| e.modulus());
+        // the eigenvalues that `spectrum` prints
+        let Analysis { system, spectrum, .. } = Analysis::of_scheme(scheme, None, None)?;
+        let beyond = outer(scheme.limit(), system.numbering().rings)?;
+        let hull = hull(scheme)?;
+        let subdominant = spectrum.subdominant();
+        let lambda = subdominant.map(|e| e.modulus());
         let mu = spectrum.subsubdominant().map(|e| e.modulus());
-        let next = mu.and_then(|mu| {
-            let below = |modulus: &f64| *modulus < mu * (1.0 - EQUAL);
-            spectrum.eigenvalues.iter().map(|e| e.modulus()).find(below)
-        });
-        let (quality, remark) = match Quality::new(scheme, QUADRATURE) {
-            Ok(quality) => (Some(quality), String::new()),
-            Err(error) => (None, error.to_string()),
+        let mut remarks = Vec::new();
+        let dominant = spectrum.eigenvalues.first().map_or(0.0, |e| e.modulus());
+        let affine = (dominant - 1.0).abs() <= EQUAL;
+        if !affine {
+            remarks.push(format!("the dominant eigenvalue is {dominant:.6}, not 1"));
+        }
+        // where the tangent plane is not spanned by block 1 there is no characteristic map to measure
+        let wound = subdominant.is_some_and(|e| e.fourier.is_none_or(|k| k == 1));
+        if affine && !wound {
+            let fourier = subdominant.and_then(|e| e.fourier).unwrap_or_default();
+            remarks.push(format!(
+                "the subdominant eigenvalue is of Fourier index {fourier}, not 1"
+            ));
+        }
+        if subdominant.is_some_and(|e| e.value.1 != 0.0) {
+            remarks.push("the subdominant eigenvalue is complex".to_owned());
+        }
+        let quality = if affine && wound {
+            Quality::new(scheme, QUADRATURE)
+                .map_err(|error| remarks.push(error.to_string()))
+                .ok()
+        } else {
+            None
         };
+        if hull.is_some_and(|least| least < 0.0) {
+            remarks.push("weights are negative".to_owned());
+        }
         // other degrees live on other annuli with other norms
         let comparable = quality.filter(|quality| scheme.degree() == Some(3) && quality.theta.is_some());
         Ok(Row {
@@ -70,21 +95,23 @@ impl Row {
             total: comparable.map(|q| q.total()).filter(|e| e.is_finite()),
             theta: quality.and_then(|q| q.theta).map(f64::to_degrees),
             gap: lambda.zip(mu).map(|(lambda, mu)| 1.0 - mu / lambda),
-            strict: mu.filter(|&mu| mu > 0.0).map(|mu| 1.0 - next.unwrap_or(0.0) / mu),
-            hull: hull(scheme),
-            remark,
+            strict: spectrum.strictness(scheme.valence(), beyond),
+            hull,
+            remark: remarks.join("; "),
         })
     }
 }
 
-/// The smallest weight of a special stencil of the limit level.
-fn hull(scheme: &Scheme<f64>) -> Option<f64> {
-    let passes = scheme.limit().passes();
-    let weights = passes
-        .iter()
-        .flat_map(|pass| pass.special().values())
-        .flat_map(|stencil| stencil.terms());
-    weights.map(|&(_, weight)| weight).reduce(f64::min)
+/// The smallest weight, of those that are not zero, of a control point in a point that is refined once, over
+/// all levels: what the margin of `hull` in a certificate is.
+fn hull(scheme: &Scheme<f64>) -> Result<Option<f64>, Error> {
+    let mut least: Option<f64> = None;
+    for level in (0..=scheme.leading().len()).map(|index| scheme.level(index)) {
+        let rows = level.rows(&level.row_sites()?)?;
+        let weights = rows.iter().flat_map(|row| row.values().copied());
+        least = weights.filter(|&weight| weight != 0.0).chain(least).reduce(f64::min);
+    }
+    Ok(least)
 }
 
 /// Measures schemes, each with what it is called, at all valences: valence by valence, in the order of the

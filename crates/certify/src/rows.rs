@@ -7,21 +7,7 @@
 
 use crate::exact::{Field, row_sum_defect};
 use crate::{Check, Error, Interval, Statement, Subject, Witness};
-use eigenring_scheme::{Error as SchemeError, Exact, Lattice, Level, Net, Scalar, Site, refine};
-use std::collections::BTreeMap;
-
-/// Points of which all rows are looked at: those of special and closed rings, and two rings more for the
-/// regular rules.
-fn sites(level: &Level<Interval>) -> Result<Vec<Site>, Error> {
-    // the closed rings hold all special ones
-    let rings = level.closed_rings()? + 2;
-    let numbering = level.numbering(rings);
-    if !level.is_rotation_symmetric() {
-        return Ok(numbering.sites());
-    }
-    let centre = (numbering.lattice == Lattice::Vertex).then_some(Site::CENTRE);
-    Ok(centre.into_iter().chain(numbering.sector_sites(0)).collect())
-}
+use eigenring_scheme::{Error as SchemeError, Exact, Level, Net, Scalar, Site, refine};
 
 /// The levels of a scheme with their exact twins, and how a message refers to them.
 fn levels(subject: &Subject) -> impl Iterator<Item = (&Level<Interval>, Option<&Level<Exact>>, String)> {
@@ -64,7 +50,7 @@ fn row_sums_of(
     place: &str,
 ) -> Result<Check, Error> {
     const NAME: Statement = Statement::RowSums;
-    let sites = sites(level)?;
+    let sites = level.row_sites()?;
     let sums = refine(level, &OneNet, &sites)?;
     if !sums.iter().all(|sum| sum.is_bounded()) {
         return Ok(Check::undecided(
@@ -141,7 +127,8 @@ fn row_sums_of(
 /// of each of 1000 weights below 1, with room for the rounding of their own computation.
 const ROUNDING: f64 = 1e-12;
 
-/// `hull`: no weight of any level is negative.
+/// `hull`: no weight of any level is negative. The margin is the smallest weight that is not zero: a zero is
+/// as good as a control point that is not read.
 ///
 /// # Errors
 /// Those of running the rules.
@@ -149,10 +136,10 @@ pub fn hull(subject: &Subject) -> Result<Check, Error> {
     const NAME: Statement = Statement::Hull;
     let mut smallest: Option<(Site, Site, Interval, String)> = None;
     for (level, _, level_name) in levels(subject) {
-        let sites = sites(level)?;
-        let rows = refine(level, &WeightNet, &sites)?;
+        let sites = level.row_sites()?;
+        let rows = level.rows(&sites)?;
         for (&target, row) in sites.iter().zip(&rows) {
-            for (&source, &weight) in row {
+            for (&source, &weight) in row.iter().filter(|(_, weight)| **weight != Interval::point(0.0)) {
                 if smallest
                     .as_ref()
                     .is_none_or(|(_, _, least, _)| weight.lo() < least.lo())
@@ -208,30 +195,5 @@ impl Net<Interval> for OneNet {
 
     fn accumulate(&self, sum: &mut Interval, &weight: &Interval, at_orbit: &Interval, _site: Site) {
         *sum += weight * *at_orbit;
-    }
-}
-
-/// A point's value is its row: the weights of the control points in it.
-struct WeightNet;
-
-impl Net<Interval> for WeightNet {
-    type Value = BTreeMap<Site, Interval>;
-
-    fn zero(&self) -> Self::Value {
-        BTreeMap::new()
-    }
-
-    fn control(&self, site: Site) -> Result<Self::Value, SchemeError> {
-        Ok(BTreeMap::from([(site, Interval::one())]))
-    }
-
-    fn orbit(&self, site: Site) -> Site {
-        site
-    }
-
-    fn accumulate(&self, sum: &mut Self::Value, &weight: &Interval, at_orbit: &Self::Value, _site: Site) {
-        for (&site, &value) in at_orbit {
-            *sum.entry(site).or_insert(Interval::point(0.0)) += weight * value;
-        }
     }
 }

@@ -36,6 +36,7 @@ mod number;
 mod one_ring;
 mod pass;
 mod reach;
+mod rows;
 mod scheme;
 mod site;
 mod spec;

@@ -126,6 +126,44 @@ impl Spectrum {
         let lambda = self.subdominant()?.modulus();
         (lambda > 0.0).then(|| self.subsubdominant().map_or(0.0, |mu| mu.modulus() / (lambda * lambda)))
     }
+
+    /// How far all further eigenvalues are below the three of the quadratic terms: `1 - |next| / mu`. These
+    /// are the largest of the blocks 0, 2 and N-2 below 1 and lambda, `mu` is the smallest of their moduli,
+    /// and `beyond` the largest modulus of eigenvalues that are not listed.
+    ///
+    /// `None` where it would mean nothing: 1 is not dominant, the subdominant eigenvalue is not a simple one
+    /// of block 1, or the next is not below mu.
+    pub fn strictness(&self, valence: usize, beyond: f64) -> Option<f64> {
+        let leading = self.eigenvalues.first().filter(|e| (e.modulus() - 1.0).abs() <= SAME)?;
+        let pair = self.subdominant().filter(|e| e.fourier == Some(1))?;
+        let (mut left, mut mu) = (vec![], f64::INFINITY);
+        for index in 0..=valence / 2 {
+            let copies = 1 + usize::from(index != 0 && 2 * index != valence);
+            let block = self.eigenvalues.iter().filter(|e| e.fourier == Some(index));
+            let mut moduli = block.flat_map(|e| std::iter::repeat_n(e.modulus(), e.multiplicity / copies));
+            let passed = match index {
+                0 => moduli.next().map(|first| (first, leading)),
+                1 => moduli.next().map(|first| (first, pair)),
+                _ => None,
+            };
+            if passed.is_some_and(|(first, expected)| first != expected.modulus()) {
+                return None;
+            }
+            // both saddles are in block 2 at valence 4, and in block 1 = N-2 at valence 3
+            let wanted = match (index, valence) {
+                (0, _) | (1, 3) => 1,
+                (2, 4) => 2,
+                (2, _) => 1,
+                _ => 0,
+            };
+            for _ in 0..wanted {
+                mu = mu.min(moduli.next()?);
+            }
+            left.extend(moduli.next());
+        }
+        let next = left.into_iter().fold(beyond, f64::max);
+        (next < mu * (1.0 - SAME)).then(|| 1.0 - next / mu)
+    }
 }
 
 #[cfg(test)]

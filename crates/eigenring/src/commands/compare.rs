@@ -13,8 +13,10 @@ use std::process::ExitCode;
 /// Columns: lambda; mu/lambda^2 (1: bounded curvature without a flat spot); K_m, the reach of the
 /// second-order maps' Gauss curvatures to the wrong side of zero, and the unweighted objective E, both over
 /// the annulus from 2 to 4 with unit 5-ring norm (bicubic schemes around a vertex only); theta, the angle at
-/// F between V and E, in degrees; and margins: gap = 1 - |mu|/lambda, strict = 1 - |next eigenvalue|/mu, hull
-/// = the smallest weight of a special stencil.
+/// F between V and E, in degrees; and margins: gap = 1 - |mu|/lambda; strict = 1 - |next eigenvalue|/mu,
+/// where mu is the smallest of the three eigenvalues of the quadratic terms, empty where the next is not
+/// below it; hull, the smallest weight that is not zero of the rules of one level, passes composed. `verify`
+/// prints the same margins.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Example:\n  eigenring compare --schemes catmull-clark,lambda:optimal,tension:order=4,u0=2 --valences 3..12"

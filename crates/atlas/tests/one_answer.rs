@@ -1,0 +1,92 @@
+//! **Claim**: what `compare` measures of a scheme is what its certificate and its spectrum say, for every
+//! registered scheme. **Oracle**: the certificate's enclosures come from intervals and need not know the
+//! eigenvalues of double arithmetic; the spectrum's list is read here by hand.
+
+use eigenring_atlas::compare::Row;
+use eigenring_atlas::spectrum::Analysis;
+use eigenring_certify::{Input, Statement, Status, certify};
+use eigenring_scheme::{Scheme, Spec, registry};
+
+/// Enclosures are up to 1e-12 wide; eigenvalues of double arithmetic with a vector each are closer still.
+const ROUNDING: f64 = 1e-9;
+
+/// The bound of a cluster of two equal eigenvalues, the square root of rounding, with some room.
+const COARSE: f64 = 1e-5;
+
+fn close(a: f64, b: f64) -> bool {
+    (a - b).abs() <= ROUNDING * a.abs().max(b.abs()).max(1e-3)
+}
+
+#[test]
+fn compare_says_what_certificates_and_spectra_say() {
+    let (mut strict, mut tied) = (0, 0);
+    for example in registry().iter().flat_map(|family| family.examples) {
+        for valence in 3..=12 {
+            let spec: Spec = example.parse().unwrap();
+            let scheme: Scheme<f64> = spec.scheme(valence).unwrap();
+            let row = Row::new(example, &scheme).unwrap();
+            let place = format!("{example} at N = {valence}: {row:?}");
+
+            let list = Analysis::of_scheme(&scheme, None, None).unwrap().spectrum.eigenvalues;
+            let lambda = list[1].modulus();
+            let mu = list[2..]
+                .iter()
+                .map(|e| e.modulus())
+                .find(|m| *m < lambda * (1.0 - ROUNDING));
+            assert!(close(row.lambda.unwrap(), lambda), "{place}");
+            assert!(
+                close(row.ratio.unwrap(), mu.unwrap_or(0.0) / (lambda * lambda)),
+                "{place}"
+            );
+            assert!(close(row.gap.unwrap(), 1.0 - mu.unwrap_or(0.0) / lambda), "{place}");
+
+            let certificate = certify(Input::from_spec(&spec, valence).unwrap(), valence).unwrap();
+            let check = |name: Statement| certificate.checks.iter().find(|check| check.name == name).unwrap();
+            let of = |name: Statement| check(name).enclosure.map(|enclosure| enclosure.mid());
+            assert!(close(row.hull.unwrap(), of(Statement::Hull).unwrap()), "{place}");
+            if let Some(lambda) = of(Statement::Dominant).filter(|_| check(Statement::Dominant).holds) {
+                assert!(close(row.lambda.unwrap(), lambda), "{place}");
+            }
+            if let Some(ratio) = of(Statement::BoundedCurvature) {
+                assert!(close(row.ratio.unwrap(), ratio), "{place}, {ratio}");
+            }
+            // a margin is printed where the statement holds, and nowhere else
+            let certified = check(Statement::Strict);
+            match (row.strict, certified.margin.filter(|_| certified.holds)) {
+                (Some(margin), Some(known)) => {
+                    strict += 1;
+                    // a lower bound, which is coarse where repeated eigenvalues are only bounded
+                    assert!((-ROUNDING..COARSE).contains(&(margin - known)), "{place}, {known}");
+                }
+                (None, None) => tied += 1,
+                // a certificate may be unable to tell what floating point numbers tell by a wide gap
+                (Some(_), None) => assert_eq!(certified.status, Status::Undecided, "{place}"),
+                (None, Some(known)) => panic!("{place}, proven with {known}"),
+            }
+        }
+    }
+    // both happen: Catmull-Clark is strict, the biquadratic schemes have ties at N >= 4
+    assert!(strict > 60 && tied > 10, "{strict} and {tied}");
+}
+
+/// One scheme under two names.
+#[test]
+fn catmull_clark_is_stam_of_order_four() {
+    for valence in 3..=12 {
+        let row = |name: &str| {
+            let scheme = name.parse::<Spec>().unwrap().scheme(valence).unwrap();
+            Row::new("", &scheme).unwrap()
+        };
+        let (one, other) = (row("catmull-clark"), row("stam:order=4"));
+        for (a, b) in [
+            (one.lambda, other.lambda),
+            (one.ratio, other.ratio),
+            (one.gap, other.gap),
+            (one.strict, other.strict),
+            (one.hull, other.hull),
+            (one.theta, other.theta),
+        ] {
+            assert!(close(a.unwrap(), b.unwrap()), "{one:?}\n{other:?}");
+        }
+    }
+}
