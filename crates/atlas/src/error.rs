@@ -37,17 +37,17 @@ pub enum Error {
     /// A file or folder cannot be read.
     #[error("cannot read {}: {source}", path.display())]
     Read {
-        /// Which.
+        /// The file or folder.
         path: PathBuf,
-        /// Why.
+        /// What the operating system says.
         source: std::io::Error,
     },
     /// A file or folder cannot be written.
     #[error("cannot write {}: {source}", path.display())]
     Write {
-        /// Which.
+        /// The file or folder.
         path: PathBuf,
-        /// Why.
+        /// What the operating system says.
         source: std::io::Error,
     },
     /// What a file holds is refused.
@@ -55,7 +55,7 @@ pub enum Error {
     InFile {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// What is wrong there.
         source: Box<Error>,
     },
     /// Text or stored data make no sense.
@@ -71,7 +71,7 @@ pub enum Error {
     Range {
         /// What the value is.
         what: &'static str,
-        /// The value.
+        /// The value as it was given.
         given: String,
         /// The values that are accepted.
         accepted: String,

@@ -8,6 +8,20 @@
 //! eigenvectors, subdivisions, places. The checks take scheme and evidence and use nothing but [`Interval`]s,
 //! [`Centred`] forms and [`exact`] numbers. Wrong evidence leaves a statement undecided; it cannot make it
 //! proven or refuted.
+//!
+//! ```
+//! use eigenring_certify::{Input, Statement, Status, certify, recheck};
+//!
+//! let input = Input::from_spec(&"catmull-clark".parse()?, 5)?;
+//! let certificate = certify(input, 5)?;
+//! let status = |name| certificate.check(name).map(|check| check.status);
+//! assert_eq!(status(Statement::Injective), Some(Status::Proven));
+//! // an eigenvalue of block 2 is 1.12 lambda^2: curvature is unbounded
+//! assert_eq!(status(Statement::BoundedCurvature), Some(Status::Refuted));
+//! // the evidence alone gives the same
+//! assert!(recheck(&certificate)?.confirmed());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod certificate;
 mod conditions;

@@ -51,7 +51,7 @@ pub struct Entry {
     pub index: usize,
     /// The component of the block.
     pub component: usize,
-    /// The value.
+    /// The enclosed eigenvalue.
     pub value: Eigenvalue,
     /// The eigenvector on the unknowns of the component, for a simple real value.
     pub vector: Option<Vec<Interval>>,

@@ -10,19 +10,19 @@ pub enum Error {
     /// A vertex or face needs at least three sectors.
     #[error("valence {valence} is out of range: accepted are 3 and above")]
     Valence {
-        /// What was given.
+        /// The given valence.
         valence: usize,
     },
     /// The subdominant eigenvalue lies between the outer rings' largest eigenvalue and 1.
     #[error("lambda = {lambda} is out of range: accepted is 0.125 < lambda < 1")]
     Lambda {
-        /// What was given.
+        /// The given lambda.
         lambda: f64,
     },
     /// `mu = s lambda^2` must lie between `lambda^2` and `lambda`.
     #[error("s = {s} is out of range: accepted is 1 <= s < {} = 1/lambda", 1.0 / lambda)]
     Relaxation {
-        /// What was given.
+        /// The given ratio mu / lambda^2.
         s: f64,
         /// The lambda it was given for.
         lambda: f64,
@@ -70,7 +70,7 @@ pub enum Error {
     /// A fan has at least one sector.
     #[error("{sectors} sectors: accepted are 1 to {maximum}")]
     Sectors {
-        /// What was given.
+        /// The given number of sectors.
         sectors: usize,
         /// The most that are accepted.
         maximum: usize,
@@ -133,7 +133,7 @@ pub enum Error {
     /// Fourier indices count from 0 to N-1.
     #[error("Fourier index {index} is out of range: accepted are 0 to {}", valence - 1)]
     FourierIndex {
-        /// What was given.
+        /// The given Fourier index.
         index: usize,
         /// The number of sectors.
         valence: usize,
@@ -155,13 +155,13 @@ pub enum Error {
     /// The tension of the generalised scheme; u = -1 divides by zero.
     #[error("tension u0 = {tension} is out of range: accepted is u0 > -1")]
     Tension {
-        /// What was given.
+        /// The given tension.
         tension: f64,
     },
     /// The order of the generalised tension scheme.
     #[error("order {order} is out of range: accepted are 3 to {maximum}")]
     Order {
-        /// What was given.
+        /// The given order, one more than the degree.
         order: usize,
         /// The largest accepted order.
         maximum: usize,
@@ -179,7 +179,7 @@ pub enum Error {
     /// A weight is neither a number nor a fraction.
     #[error("'{text}' is not a number: accepted are decimals and fractions of integers such as 7/12")]
     Number {
-        /// What was given.
+        /// The text as it was given.
         text: String,
     },
     /// A scheme file does not have the expected form.
@@ -191,7 +191,7 @@ pub enum Error {
     /// The name of a scheme is unknown or its parameters do not fit it.
     #[error("scheme '{spec}': {reason}; accepted are {accepted}")]
     Spec {
-        /// What was given.
+        /// The name as it was given.
         spec: String,
         /// What is wrong with it.
         reason: String,
@@ -201,13 +201,13 @@ pub enum Error {
     /// The margin to the eigenvalue bounds is a fraction of mu.
     #[error("margin kappa = {margin} is out of range: accepted is 0 <= kappa < 1")]
     Margin {
-        /// What was given.
+        /// The given margin.
         margin: f64,
     },
     /// The ratio of the vertex stencil's weights must not make one of them negative.
     #[error("phi = {phi} is out of range: accepted is 0 <= phi < infinity")]
     Phi {
-        /// What was given.
+        /// The given ratio alpha / beta of the vertex stencil.
         phi: f64,
     },
     /// No (f2, f3) is admissible.

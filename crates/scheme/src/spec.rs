@@ -21,6 +21,8 @@ pub struct Family {
     pub summary: &'static str,
     /// Specs that stand for the family in tests and comparisons.
     pub examples: &'static [&'static str],
+    /// Reads the parameters; those that it leaves are unknown ones.
+    parse: fn(&mut Parameters<'_>) -> Result<Spec, Error>,
 }
 
 /// All families, in the order in which they are listed to users.
@@ -31,18 +33,27 @@ pub fn registry() -> &'static [Family] {
             usage: "catmull-clark",
             summary: "bicubic, around a vertex (Catmull and Clark 1978)",
             examples: &["catmull-clark"],
+            parse: |_| Ok(Spec::CatmullClark),
         },
         Family {
             name: "doo-sabin",
             usage: "doo-sabin[:uniform]",
             summary: "biquadratic, around a face: original weights (Doo and Sabin 1978), or all far corners of a face alike, which is order 3 of the tension scheme at u = 1",
             examples: &["doo-sabin", "doo-sabin:uniform"],
+            parse: |parameters| {
+                Ok(if parameters.flag("uniform") {
+                    Spec::DooSabinUniform
+                } else {
+                    Spec::DooSabin
+                })
+            },
         },
         Family {
             name: "lambda",
             usage: "lambda:optimal | lambda:lambda=L[,f2=X,f3=Y][,s=S]",
             summary: "bicubic, tuned for a subdominant eigenvalue (Ma, Wang and Ma 2023); weights from the embedded spline table unless f2 and f3 are given",
             examples: &["lambda:optimal", "lambda:lambda=0.5", "lambda:lambda=0.39"],
+            parse: parse_lambda,
         },
         Family {
             name: "tension",
@@ -54,18 +65,34 @@ pub fn registry() -> &'static [Family] {
                 "tension:order=5",
                 "tension:order=6,u0=2",
             ],
+            parse: |parameters| {
+                Ok(Spec::Tension {
+                    order: parameters.demand("order", "no order")?,
+                    u0: parameters.take("u0")?.unwrap_or(1.0),
+                })
+            },
         },
         Family {
             name: "stam",
             usage: "stam:order=K",
             summary: "B-spline subdivision of any order K >= 3 (Stam 2001), in the form of the tension scheme at u = 1",
             examples: &["stam:order=6", "stam:order=7"],
+            parse: |parameters| {
+                Ok(Spec::Stam {
+                    order: parameters.demand("order", "no order")?,
+                })
+            },
         },
         Family {
             name: "morin",
             usage: "morin:u0=U",
             summary: "bicubic with initial tension U > -1, for surfaces of revolution (Morin et al. 2001): order 4 of the tension scheme",
             examples: &["morin:u0=0.5", "morin:u0=2"],
+            parse: |parameters| {
+                Ok(Spec::Morin {
+                    u0: parameters.demand("u0", "no tension")?,
+                })
+            },
         },
     ]
 }
@@ -259,6 +286,26 @@ impl<'a> Parameters<'a> {
     }
 }
 
+fn parse_lambda(parameters: &mut Parameters<'_>) -> Result<Spec, Error> {
+    if parameters.flag("optimal") {
+        return Ok(Spec::LambdaOptimal);
+    }
+    let Some(lambda) = parameters.take("lambda")? else {
+        return Err(parameters.refuse("neither 'optimal' nor a lambda is given"));
+    };
+    let s = parameters.take("s")?;
+    let weights = match (parameters.take("f2")?, parameters.take("f3")?) {
+        (Some(f2), Some(f3)) => Some((f2, f3)),
+        (None, None) => None,
+        _ => return Err(parameters.refuse("f2 and f3 must be given together")),
+    };
+    let numbers = [Some(lambda), s, weights.map(|w| w.0), weights.map(|w| w.1)];
+    if numbers.iter().flatten().any(|number: &f64| !number.is_finite()) {
+        return Err(parameters.refuse("a parameter is not a finite number"));
+    }
+    Ok(Spec::Lambda { lambda, s, weights })
+}
+
 impl FromStr for Spec {
     type Err = Error;
 
@@ -276,38 +323,7 @@ impl FromStr for Spec {
             });
         };
         let mut parameters = Parameters::new(text, family.usage, rest)?;
-        let spec = match family.name {
-            "catmull-clark" => Spec::CatmullClark,
-            "doo-sabin" if parameters.flag("uniform") => Spec::DooSabinUniform,
-            "doo-sabin" => Spec::DooSabin,
-            "lambda" if parameters.flag("optimal") => Spec::LambdaOptimal,
-            "lambda" => {
-                let Some(lambda) = parameters.take("lambda")? else {
-                    return Err(parameters.refuse("neither 'optimal' nor a lambda is given"));
-                };
-                let s = parameters.take("s")?;
-                let weights = match (parameters.take("f2")?, parameters.take("f3")?) {
-                    (Some(f2), Some(f3)) => Some((f2, f3)),
-                    (None, None) => None,
-                    _ => return Err(parameters.refuse("f2 and f3 must be given together")),
-                };
-                let numbers = [Some(lambda), s, weights.map(|w| w.0), weights.map(|w| w.1)];
-                if numbers.iter().flatten().any(|number: &f64| !number.is_finite()) {
-                    return Err(parameters.refuse("a parameter is not a finite number"));
-                }
-                Spec::Lambda { lambda, s, weights }
-            }
-            "morin" => Spec::Morin {
-                u0: parameters.demand("u0", "no tension")?,
-            },
-            "stam" => Spec::Stam {
-                order: parameters.demand("order", "no order")?,
-            },
-            _ => Spec::Tension {
-                order: parameters.demand("order", "no order")?,
-                u0: parameters.take("u0")?.unwrap_or(1.0),
-            },
-        };
+        let spec = (family.parse)(&mut parameters)?;
         parameters.finish()?;
         Ok(spec)
     }

@@ -36,7 +36,7 @@ pub enum Error {
         "{value} is not an eigenvalue of Fourier block {fourier}: the smallest singular value of S - {value} is {gap}"
     )]
     NotAnEigenvalue {
-        /// The value.
+        /// The number that was asked about.
         value: f64,
         /// The block.
         fourier: usize,

@@ -4,6 +4,22 @@
 //! rotation-symmetric. It gives the [`Spectrum`], [`Mode`]s with their dual functionals, and limit stencils;
 //! [`Maps`] are the characteristic and second-order maps on the regular [`Annulus`]. Matrices, blocks and
 //! patches are generic over the scalar; decompositions are in `f64`.
+//!
+//! From rules to numbers, for Catmull-Clark around a vertex of valence 5 (Ball and Storry 1988):
+//!
+//! ```
+//! use eigenring_scheme::families::catmull_clark;
+//! use eigenring_spectral::{Annulus, LocalSystem, Maps};
+//!
+//! let scheme = catmull_clark::<f64>(5)?;
+//! let spectrum = LocalSystem::new(scheme.limit(), scheme.closed_rings()?)?.spectrum()?;
+//! let lambda = spectrum.subdominant().expect("more than one point").modulus();
+//! assert!((lambda - 0.549988354518297).abs() < 1e-14);
+//! // the net of the characteristic map, on as many rings as a regular annulus takes
+//! let maps = Maps::on(&scheme, Annulus::at_least(&scheme, 2)?)?;
+//! assert!((maps.lambda - lambda).abs() < 1e-14);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod annulus;
 mod components;

@@ -38,7 +38,7 @@ pub struct Graph {
     pub x: f64,
     /// The point below.
     pub y: f64,
-    /// The value.
+    /// The height of the map.
     pub z: f64,
     /// The Jacobian `x_u y_v - x_v y_u` of the parametrisation.
     pub jacobian: f64,

@@ -9,7 +9,7 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 /// enclosures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<S, const D: usize = 1> {
-    /// The value.
+    /// The value of the function.
     pub value: S,
     /// The derivatives, one per direction.
     pub parts: [S; D],

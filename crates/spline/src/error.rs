@@ -8,13 +8,13 @@ pub enum Error {
     /// The tension of the generalised scheme; u = -1 divides by zero.
     #[error("tension u0 = {tension} is out of range: accepted is u0 > -1")]
     Tension {
-        /// What was given.
+        /// The given tension.
         tension: f64,
     },
     /// The order of the generalised tension scheme.
     #[error("order {order} is out of range: accepted are 3 to {maximum}")]
     Order {
-        /// What was given.
+        /// The given order, one more than the degree.
         order: usize,
         /// The largest accepted order.
         maximum: usize,
@@ -40,7 +40,7 @@ pub enum Error {
     /// An argument outside of a spline's domain.
     #[error("{value} is outside of the spline's domain: accepted are {lower} to {upper}")]
     OutsideSpline {
-        /// What was given.
+        /// The number that was given.
         value: f64,
         /// Start of the domain.
         lower: f64,

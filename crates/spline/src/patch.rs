@@ -17,7 +17,7 @@ pub struct TensorPatch<S> {
 /// A function of two variables and its derivatives at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jet<S> {
-    /// The value.
+    /// The value of the patch.
     pub value: S,
     /// First derivatives: by u, by v.
     pub first: [S; 2],

@@ -5,6 +5,24 @@
 //! branch, [`global`] finds the best lambda, [`spline`] fits the spline stencils, and [`study`] is all of
 //! this for one valence. [`quality`] measures any scheme. The output of tuning is an ordinary scheme: nothing
 //! else needs to know how its stencils were found.
+//!
+//! The stencils of one lambda, as a sweep finds them at each of its samples:
+//!
+//! ```
+//! use eigenring_scheme::lambda::{Bounds, Domain, Plane};
+//! use eigenring_tune::objective::{Objective, Settings};
+//! use eigenring_tune::search::{Starts, search};
+//!
+//! let plane = Plane::new(5, 0.55, 1.0)?; // valence, lambda, s = mu / lambda^2
+//! let objective = Objective::new(plane, Settings::default())?;
+//! let domain = Domain::new(plane, Bounds::Paper, 0.0)?;
+//! let optimum = search(&objective, &domain, Starts::Grid)?.lowest().clone();
+//! let (value, gradient) = objective.value_and_gradient(optimum.f2, optimum.f3)?;
+//! assert_eq!(value, optimum.total);
+//! // a bound is active, or the objective is flat there
+//! assert!(!optimum.active.is_empty() || gradient.iter().all(|slope| slope.abs() < 1e-3));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod global;
 pub mod objective;

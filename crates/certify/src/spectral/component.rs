@@ -30,7 +30,7 @@ pub struct Rest {
 /// An enclosed eigenvalue, with its vector on the component if it is simple there and real.
 #[derive(Clone, Debug)]
 pub struct Located {
-    /// The value.
+    /// The enclosed eigenvalue.
     pub value: Eigenvalue,
     /// The vector, which is not zero. It is exactly 1 at some entry if its pair was the first to be divided
     /// out, or none was. Others are so in the quotient where they were found, and not once they are lifted.

@@ -53,25 +53,25 @@ pub enum Error {
     /// The ratio of the vertex stencil's weights is not a finite non-negative number.
     #[error("phi = {phi} is out of range: accepted is 0 <= phi < inf")]
     Phi {
-        /// What was given.
+        /// The given ratio alpha / beta of the vertex stencil.
         phi: f64,
     },
     /// The width of the weight is out of range.
     #[error("epsilon = {epsilon} is out of range: accepted is 0 < epsilon < inf")]
     Epsilon {
-        /// What was given.
+        /// The given width of the weight.
         epsilon: f64,
     },
     /// The largest weight's root is out of range.
     #[error("n = {n} is out of range: accepted is 1 <= n < inf")]
     N {
-        /// What was given.
+        /// The given root of the largest weight.
         n: f64,
     },
     /// The quadrature order is out of range.
     #[error("quadrature order {order} is out of range: accepted are 1 to 20")]
     QuadratureOrder {
-        /// What was given.
+        /// The given number of Gauss points per direction.
         order: usize,
     },
     /// lambda or mu meets an eigenvalue of the outer rings, so that the eigenvector is not determined by the
@@ -86,9 +86,9 @@ pub enum Error {
     /// The characteristic map folds over: its Jacobian determinant is not positive at some Gauss point.
     #[error("at f2 = {f2}, f3 = {f3} the natural configuration folds over: smallest Jacobian {jacobian}")]
     Folded {
-        /// What was given.
+        /// The face stencil's weight of each edge neighbour.
         f2: f64,
-        /// What was given.
+        /// The face stencil's weight of the opposite corner.
         f3: f64,
         /// The smallest Jacobian over the Gauss points, with the first edge neighbour at distance 1.
         jacobian: f64,
@@ -96,9 +96,9 @@ pub enum Error {
     /// An argument is not finite, or the stencil at (f2, f3) does not exist (a denominator vanishes).
     #[error("the objective has no finite value at f2 = {f2}, f3 = {f3}")]
     NotFinite {
-        /// What was given.
+        /// The face stencil's weight of each edge neighbour.
         f2: f64,
-        /// What was given.
+        /// The face stencil's weight of the opposite corner.
         f3: f64,
     },
 }

@@ -20,9 +20,9 @@ pub enum Error {
     /// A given starting point is not a number.
     #[error("starting point f2 = {f2}, f3 = {f3}: accepted are finite numbers")]
     NotFinite {
-        /// What was given.
+        /// The face stencil's weight of each edge neighbour.
         f2: f64,
-        /// What was given.
+        /// The face stencil's weight of the opposite corner.
         f3: f64,
     },
 }

@@ -85,11 +85,11 @@ pub struct ActiveBound {
 /// A local minimum over a domain.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Optimum {
-    /// Where.
+    /// The face stencil's weight of each edge neighbour.
     pub f2: f64,
-    /// Where.
+    /// The face stencil's weight of the opposite corner.
     pub f3: f64,
-    /// The value.
+    /// The objective E there.
     pub total: f64,
     /// The bounds on which it lies, by [`Constraint`]. The equation `f3 = mu` at N = 4 is not listed.
     pub active: Vec<ActiveBound>,

@@ -28,7 +28,7 @@ pub enum FitError {
     /// Smoothness and energy are written down for quadratic and cubic splines.
     #[error("degree {degree} is out of range: accepted are 2 and 3")]
     Degree {
-        /// What was given.
+        /// The given degree.
         degree: usize,
     },
     /// A sample, interpolation point or bound lies outside the knots or is not a number, or a weight is not
@@ -53,7 +53,7 @@ pub enum FitError {
     /// The lower bound lies above the upper one.
     #[error("no value lies between the bounds {lower} and {upper} at lambda = {lambda}")]
     EmptyBand {
-        /// Where.
+        /// The subdominant eigenvalue at which it is so.
         lambda: f64,
         /// The lower bound.
         lower: f64,
@@ -63,15 +63,15 @@ pub enum FitError {
     /// Smoothness was asked for where there is no interior knot.
     #[error("lambda = {lambda} is not an interior knot: accepted are interior knots")]
     NotAKnot {
-        /// What was given.
+        /// The given lambda.
         lambda: f64,
     },
     /// An interpolation condition contradicts the others.
     #[error("the spline cannot take the value {value} at lambda = {lambda} together with the other equalities")]
     Contradiction {
-        /// Where.
+        /// The subdominant eigenvalue at which it is so.
         lambda: f64,
-        /// The value.
+        /// The value that is asked for.
         value: f64,
     },
     /// The samples do not determine the spline.

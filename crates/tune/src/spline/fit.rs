@@ -25,9 +25,9 @@ use eigenring_spline::{Knots, Spline};
 /// A value to be approximated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// Where.
+    /// The subdominant eigenvalue at which it is so.
     pub lambda: f64,
-    /// The value.
+    /// The value that the spline should take there.
     pub value: f64,
     /// Weight of the squared deviation, positive.
     pub weight: f64,
@@ -36,7 +36,7 @@ pub struct Sample {
 /// Bounds on the spline at one lambda; infinite where there is none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bound {
-    /// Where.
+    /// The subdominant eigenvalue at which it is so.
     pub lambda: f64,
     /// Lower bound.
     pub lower: f64,
@@ -62,7 +62,7 @@ pub struct FitProblem<'a> {
 /// A bound that carries the optimum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ActiveBound {
-    /// Where.
+    /// The subdominant eigenvalue at which it is so.
     pub lambda: f64,
     /// Which side.
     pub side: Side,

@@ -44,11 +44,11 @@ pub enum Source {
 /// A possible triple knot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Candidate {
-    /// Where.
+    /// The subdominant eigenvalue at which it is so.
     pub lambda: f64,
     /// For which knot.
     pub slot: Slot,
-    /// Why.
+    /// What suggests a kink there.
     pub source: Source,
     /// Root mean square of the residuals of f2 and f3 with the best partner in the other slot; `None` if it
     /// leaves too few samples between neighbouring triple knots.

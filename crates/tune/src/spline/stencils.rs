@@ -8,7 +8,7 @@ use eigenring_scheme::lambda::LambdaKnots;
 /// The tuned stencil at one lambda.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StencilSample {
-    /// Where.
+    /// The subdominant eigenvalue at which it is so.
     pub lambda: f64,
     /// The tuned f2.
     pub f2: f64,

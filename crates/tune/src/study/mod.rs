@@ -91,7 +91,7 @@ pub struct KnotTable {
 /// A possible kink.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct KnotCandidate {
-    /// Where.
+    /// The subdominant eigenvalue at which it is so.
     pub lambda: f64,
     /// "b" or "d".
     pub slot: String,
@@ -123,7 +123,7 @@ pub struct Featured {
     /// The name in the paper's Table 1: lambda_r1, lambda_b, lambda_A, lambda_l, lambda_M, lambda_CC,
     /// lambda_d, lambda_C, lambda_r2.
     pub name: String,
-    /// The value.
+    /// The subdominant eigenvalue.
     pub lambda: f64,
     /// The value in the paper, if it has the valence.
     pub paper: Option<f64>,

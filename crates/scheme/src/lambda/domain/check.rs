@@ -8,9 +8,9 @@ use std::fmt;
 /// A point that was refused: which bound it misses, by how much, and what would have been accepted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InfeasiblePoint {
-    /// What was given.
+    /// The face stencil's weight of each edge neighbour.
     pub f2: f64,
-    /// What was given.
+    /// The face stencil's weight of the opposite corner.
     pub f3: f64,
     /// The valence of the domain.
     pub valence: usize,
