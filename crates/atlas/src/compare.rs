@@ -51,8 +51,17 @@ impl Row {
     /// Those of its local system. Maps that do not exist are no error, but a remark.
     pub fn new(name: &str, scheme: &Scheme<f64>) -> Result<Self, Error> {
         // the eigenvalues that `spectrum` prints
-        let Analysis { system, spectrum, .. } = Analysis::of_scheme(scheme, None, None)?;
-        let beyond = outer(scheme.limit(), system.numbering().rings)?;
+        let Analysis {
+            system,
+            spectrum,
+            closed,
+            ..
+        } = Analysis::of_scheme(scheme, None, None)?;
+        let rings = system.numbering().rings;
+        let beyond = match closed {
+            Some((closed, outer)) if closed == rings => outer,
+            _ => outer(scheme.limit(), rings)?,
+        };
         let hull = hull(scheme)?;
         let subdominant = spectrum.subdominant();
         let lambda = subdominant.map(|e| e.modulus());
@@ -64,8 +73,8 @@ impl Row {
             remarks.push(format!("the dominant eigenvalue is {dominant:.6}, not 1"));
         }
         // where the tangent plane is not spanned by block 1 there is no characteristic map to measure
-        let wound = subdominant.is_some_and(|e| e.fourier.is_none_or(|k| k == 1));
-        if affine && !wound {
+        let spanned = subdominant.is_some_and(|e| e.fourier.is_none_or(|k| k == 1));
+        if affine && !spanned {
             let fourier = subdominant.and_then(|e| e.fourier).unwrap_or_default();
             remarks.push(format!(
                 "the subdominant eigenvalue is of Fourier index {fourier}, not 1"
@@ -74,7 +83,7 @@ impl Row {
         if subdominant.is_some_and(|e| e.value.1 != 0.0) {
             remarks.push("the subdominant eigenvalue is complex".to_owned());
         }
-        let quality = if affine && wound {
+        let quality = if affine && spanned {
             Quality::new(scheme, QUADRATURE)
                 .map_err(|error| remarks.push(error.to_string()))
                 .ok()
