@@ -89,31 +89,22 @@ fn open_fans_have_the_sine_modes_of_the_double_fan() {
 
 #[test]
 fn a_crease_with_one_face_is_defective_at_a_quarter() {
-    let scheme = around("catmull-clark", &Corner::fan(1).unwrap());
-    let spectrum = LocalSystem::new(scheme.limit(), 1).unwrap().spectrum().unwrap();
-    let quarter = spectrum
-        .eigenvalues
-        .iter()
-        .find(|e| (e.value.0 - 0.25).abs() < 1e-9)
-        .unwrap();
+    let eigenvalue = |corner: Corner, value: f64| {
+        let scheme = around("catmull-clark", &corner);
+        let spectrum = LocalSystem::new(scheme.limit(), 1).unwrap().spectrum().unwrap();
+        let found = spectrum
+            .eigenvalues
+            .into_iter()
+            .find(|e| (e.value.0 - value).abs() < 1e-9);
+        found.unwrap()
+    };
+    let quarter = eigenvalue(Corner::fan(1).unwrap(), 0.25);
     assert_eq!((quarter.multiplicity, quarter.geometric), (2, Some(1)));
     // a corner with two faces: the pair itself
-    let scheme = around("catmull-clark", &Corner::fan(2).unwrap().fixed());
-    let spectrum = LocalSystem::new(scheme.limit(), 1).unwrap().spectrum().unwrap();
-    let half = spectrum
-        .eigenvalues
-        .iter()
-        .find(|e| (e.value.0 - 0.5).abs() < 1e-9)
-        .unwrap();
+    let half = eigenvalue(Corner::fan(2).unwrap().fixed(), 0.5);
     assert!(half.is_defective(), "{half:?}");
     // a dart of valence four is semisimple
-    let scheme = around("catmull-clark", &Corner::dart(4).unwrap());
-    let spectrum = LocalSystem::new(scheme.limit(), 1).unwrap().spectrum().unwrap();
-    let half = spectrum
-        .eigenvalues
-        .iter()
-        .find(|e| (e.value.0 - 0.5).abs() < 1e-9)
-        .unwrap();
+    let half = eigenvalue(Corner::dart(4).unwrap(), 0.5);
     assert_eq!((half.multiplicity, half.geometric), (2, Some(2)));
 }
 
