@@ -4,12 +4,10 @@
 //! stencils far out, equal eigenvalues with and without Jordan blocks, rounded weights, and weights of any
 //! sort. The sequence of cases is fixed.
 
-mod generated;
-
+use crate::generated::{self, File, Pass, Special, q};
 use eigenring_certify::{Check, Statement, Status, Witness};
 use eigenring_tests::oracle::claims::{c1, checks, status};
 use eigenring_tests::oracle::facts::{Facts, Truth};
-use generated::{File, Pass, Special, q};
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 use proptest::strategy::{Strategy, ValueTree};

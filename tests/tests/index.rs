@@ -61,19 +61,14 @@ fn every_result_belongs_to_one_entry() {
     assert!(stored.is_empty(), "in no entry: {stored:?}");
 }
 
+/// That these tests exist is for the build to say: `.ci/run` looks for each among the tests that were compiled.
 #[test]
-fn every_entry_names_tests_that_exist() {
+fn every_entry_is_held_to_account() {
     for entry in index().entry {
         assert!(!entry.tests.is_empty(), "nothing holds '{}' to account", entry.name);
         for test in entry.tests {
-            let (path, function) = test.split_once("::").expect("path::function");
-            let text = std::fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"));
-            let declared = format!("fn {function}()");
-            let position = text
-                .find(&declared)
-                .unwrap_or_else(|| panic!("{path} has no {function}"));
-            let before = text[..position].trim_end().lines().last().unwrap_or_default().trim();
-            assert_eq!(before, "#[test]", "{test} is no test");
+            let (path, _) = test.split_once("::").expect("path::function");
+            assert!(root().join(path).is_file(), "'{}' names no file: {path}", entry.name);
         }
     }
 }

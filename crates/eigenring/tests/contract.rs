@@ -2,9 +2,7 @@
 
 #![allow(missing_docs)]
 
-mod common;
-
-use common::{Place, csv_rows, has_fields, number};
+use crate::common::{Place, csv_rows, has_fields, number};
 use serde_json::Value;
 
 fn close(a: f64, b: f64, tolerance: f64) {

@@ -2,9 +2,7 @@
 //! others by name. **Oracle**: eigenvalues in closed form; the libraries are tested in
 //! `tests/tests/corners.rs`.
 
-mod common;
-
-use common::Place;
+use crate::common::Place;
 use serde_json::Value;
 
 fn eigenvalues(found: &Value) -> Vec<f64> {

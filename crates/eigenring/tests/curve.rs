@@ -3,9 +3,7 @@
 
 #![allow(missing_docs)]
 
-mod common;
-
-use common::{Place, csv_rows, files, has_fields, number};
+use crate::common::{Place, csv_rows, files, has_fields, number};
 use serde_json::Value;
 
 const SQUARE: &str = "x,y\n1,1\n-1,1\n-1,-1\n1,-1\n";

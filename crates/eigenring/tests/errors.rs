@@ -2,9 +2,7 @@
 
 #![allow(missing_docs)]
 
-mod common;
-
-use common::{Place, files, number};
+use crate::common::{Place, files, number};
 use serde_json::Value;
 
 /// Asserts the refusal in text and JSON form; gives the message and what is accepted.

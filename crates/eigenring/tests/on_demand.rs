@@ -2,9 +2,7 @@
 
 #![allow(missing_docs)]
 
-mod common;
-
-use common::{Place, files, number};
+use crate::common::{Place, files, number};
 
 #[test]
 fn a_stencil_is_tuned_once() {

@@ -2,9 +2,7 @@
 
 #![allow(missing_docs)]
 
-mod common;
-
-use common::{Place, csv_rows};
+use crate::common::{Place, csv_rows};
 use std::collections::BTreeMap;
 
 type Row = BTreeMap<String, String>;

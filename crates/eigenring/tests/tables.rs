@@ -2,9 +2,7 @@
 
 #![allow(missing_docs)]
 
-mod common;
-
-use common::{Place, csv_rows, files};
+use crate::common::{Place, csv_rows, files};
 use eigenring_scheme::lambda::LambdaTable;
 use std::io::{BufRead, BufReader};
 use std::time::{Duration, Instant};

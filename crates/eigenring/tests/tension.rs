@@ -2,9 +2,7 @@
 
 #![allow(missing_docs)]
 
-mod common;
-
-use common::{Place, files, number};
+use crate::common::{Place, files, number};
 
 #[test]
 fn tables_do_not_depend_on_the_number_of_threads() {

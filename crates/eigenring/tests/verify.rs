@@ -3,9 +3,7 @@
 
 #![allow(missing_docs)]
 
-mod common;
-
-use common::{Place, csv_rows, has_fields, number};
+use crate::common::{Place, csv_rows, has_fields, number};
 use eigenring_certify::range::RangeCertificate;
 use eigenring_certify::{Certificate, Statement, Status};
 use serde_json::Value;

@@ -85,17 +85,14 @@ pub(super) fn optimum(
 ) -> Result<Optimum, Stuck> {
     let height = |i: usize| bounds[i].bound - bounds[i].row.dot(&reduced.origin);
     let state = |working: &[usize]| -> State {
-        let mut frame = Frame::default();
-        for &i in working {
-            let pushed = frame.push(&factored.normal(&bounds[i].row), 0.0);
-            debug_assert!(pushed, "bound {i} depends on the working set");
-        }
         let d = &reduced.target;
-        let defects: Vec<f64> = (working.iter().zip(normals(factored, bounds, working)))
-            .map(|(&i, c)| height(i) - dot(&c, d))
+        let normals = normals(factored, bounds, working);
+        let frame = Frame::new(d.len(), &normals);
+        let defects: Vec<f64> = (working.iter().zip(&normals))
+            .map(|(&i, c)| height(i) - dot(c, d))
             .collect();
         let y = frame.solve_transposed(&defects);
-        let mut v = frame.combine(d.len(), &y);
+        let mut v = frame.combine(&y);
         add_scaled(&mut v, 1.0, d);
         let mut x = factored.point(&reduced.origin, &v);
         let active: Vec<(&Row, f64)> = working.iter().map(|&i| (&bounds[i].row, bounds[i].bound)).collect();
@@ -152,10 +149,7 @@ pub(super) fn optimum(
                     add_scaled(&mut u, -t, &r);
                     u.remove(k);
                     working.remove(k);
-                    frame = Frame::default();
-                    for normal in normals(factored, bounds, &working) {
-                        frame.push(&normal, 0.0);
-                    }
+                    frame = Frame::new(c.len(), &normals(factored, bounds, &working));
                 }
                 None if dependent => {
                     let conflicts = (working.iter().zip(&r)).filter(|&(_, &r)| r < 0.0).map(|(&i, _)| i);
@@ -173,18 +167,14 @@ pub(super) fn optimum(
     }
 }
 
-fn normals<'a>(
-    factored: &'a Factored,
-    bounds: &'a [Inequality],
-    working: &'a [usize],
-) -> impl Iterator<Item = Vec<f64>> + 'a {
-    working.iter().map(|&i| factored.normal(&bounds[i].row))
+fn normals(factored: &Factored, bounds: &[Inequality], working: &[usize]) -> Vec<Vec<f64>> {
+    working.iter().map(|&i| factored.normal(&bounds[i].row)).collect()
 }
 
 /// An independent part of the guess.
 fn start(factored: &Factored, bounds: &[Inequality], guess: &[usize]) -> Vec<usize> {
-    let columns: Vec<Vec<f64>> = normals(factored, bounds, guess).collect();
-    let order = Frame::default().push_pivoted(&columns, 1e-3);
+    let (length, _) = factored.rank();
+    let (_, order) = Frame::pivoted(length, &normals(factored, bounds, guess), 1e-3);
     order.into_iter().map(|k| guess[k]).collect()
 }
 

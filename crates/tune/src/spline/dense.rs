@@ -1,8 +1,10 @@
-//! Orthonormal frames of a few dense vectors.
+//! Orthonormal frames of a few dense vectors, by Householder's QR factorisation.
 //!
-//! The fits have 17 unknowns, so vectors in a list are matrix enough. Gram-Schmidt is run twice on every
-//! vector: "twice is enough" (Kahan and Parlett; Giraud, Langou and Rozloznik 2005) for orthogonality to
-//! rounding, unless the vector depends on the others, which is noticed and reported instead.
+//! The fits have 17 unknowns, so a frame that grows is factorised again. A projection is done twice: "twice is
+//! enough" (Kahan and Parlett; Giraud, Langou and Rozloznik 2005) for what is left to be orthogonal to
+//! rounding.
+
+use nalgebra::{DMatrix, DVector};
 
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
@@ -15,106 +17,109 @@ pub(super) fn add_scaled(y: &mut [f64], t: f64, x: &[f64]) {
     }
 }
 
-fn norm(a: &[f64]) -> f64 {
-    dot(a, a).sqrt()
+/// Independent vectors `c_j = sum_{k <= j} r_kj q_k` with orthonormal `q_k` and `r_jj > 0`.
+#[derive(Clone, Debug)]
+pub(super) struct Frame {
+    /// The vectors and the `q_k`, a column each.
+    columns: DMatrix<f64>,
+    q: DMatrix<f64>,
+    r: DMatrix<f64>,
 }
 
-/// Vectors `c_j = sum_{k <= j} r[j][k] q_k` with orthonormal `q_k`: a QR factorisation that grows column by
-/// column.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Frame {
-    pub(super) q: Vec<Vec<f64>>,
-    r: Vec<Vec<f64>>,
+fn matrix(length: usize, columns: &[Vec<f64>]) -> DMatrix<f64> {
+    DMatrix::from_fn(length, columns.len(), |i, j| columns[j][i])
 }
 
 impl Frame {
-    /// Components of `c` along the frame, and what is left of it.
-    pub(super) fn project(&self, c: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let mut rest = c.to_vec();
-        let mut components = vec![0.0; self.q.len()];
-        for _ in 0..2 {
-            for (q, component) in self.q.iter().zip(&mut components) {
-                let t = dot(q, &rest);
-                *component += t;
-                add_scaled(&mut rest, -t, q);
-            }
+    fn factorised(columns: DMatrix<f64>) -> Self {
+        let qr = columns.clone().qr();
+        Frame {
+            q: qr.q(),
+            r: qr.r(),
+            columns,
         }
-        (components, rest)
+    }
+
+    /// The frame of vectors of the given length, which must be independent.
+    pub(super) fn new(length: usize, columns: &[Vec<f64>]) -> Self {
+        Self::factorised(matrix(length, columns))
+    }
+
+    /// The frame of as many independent ones of the given vectors as there are, with their indices in the
+    /// order of the frame. The next is that with the largest entry left; it ends when at most `tolerance`
+    /// times the longest vector is left of it.
+    pub(super) fn pivoted(length: usize, columns: &[Vec<f64>], tolerance: f64) -> (Self, Vec<usize>) {
+        let whole = matrix(length, columns);
+        let smallest = tolerance * whole.column_iter().map(|c| c.norm()).fold(0.0, f64::max);
+        let factors = whole.clone().col_piv_qr();
+        let mut order = DMatrix::from_fn(1, columns.len(), |_, j| j);
+        factors.p().permute_columns(&mut order);
+        let r = factors.r();
+        let kept = (0..r.nrows()).take_while(|&k| r[(k, k)].abs() > smallest).count();
+        let order: Vec<usize> = order.iter().copied().take(kept).collect();
+        (Self::factorised(whole.select_columns(&order)), order)
+    }
+
+    /// How many vectors it has.
+    pub(super) fn len(&self) -> usize {
+        self.r.ncols()
     }
 
     /// Appends a vector; refuses (`false`) one of which at most `tolerance` is left.
     pub(super) fn push(&mut self, c: &[f64], tolerance: f64) -> bool {
-        let (mut components, mut rest) = self.project(c);
-        let length = norm(&rest);
-        if length <= tolerance {
+        let last = self.len();
+        let mut columns = self.columns.clone().insert_column(last, 0.0);
+        columns.column_mut(last).copy_from_slice(c);
+        if last == columns.nrows() {
             return false;
         }
-        rest.iter_mut().for_each(|x| *x /= length);
-        components.push(length);
-        self.q.push(rest);
-        self.r.push(components);
+        let longer = Self::factorised(columns);
+        if longer.r[(last, last)] <= tolerance {
+            return false;
+        }
+        *self = longer;
         true
     }
 
-    /// Appends the given vectors, the one that adds most first, until nothing longer than `tolerance` times
-    /// the longest is left. Returns their indices in the order of the frame.
-    pub(super) fn push_pivoted(&mut self, columns: &[Vec<f64>], tolerance: f64) -> Vec<usize> {
-        let mut rest: Vec<Vec<f64>> = columns.iter().map(|c| self.project(c).1).collect();
-        let smallest = tolerance * columns.iter().map(|c| norm(c)).fold(0.0, f64::max);
-        let mut order = Vec::new();
-        let mut left: Vec<usize> = (0..columns.len()).collect();
-        while !left.is_empty() {
-            // the first of equals, so that the order is determined
-            let mut best = 0;
-            for (k, &j) in left.iter().enumerate() {
-                if dot(&rest[j], &rest[j]) > dot(&rest[left[best]], &rest[left[best]]) {
-                    best = k;
-                }
-            }
-            let j = left.remove(best);
-            if norm(&rest[j]) <= smallest || !self.push(&columns[j], smallest) {
-                break;
-            }
-            order.push(j);
-            let q = &self.q[self.q.len() - 1];
-            for &k in &left {
-                let t = dot(q, &rest[k]);
-                add_scaled(&mut rest[k], -t, q);
-            }
+    /// An orthonormal basis of what is orthogonal to the frame.
+    pub(super) fn complement(&self) -> Vec<Vec<f64>> {
+        let n = self.columns.nrows();
+        // a column of zeros is left as it is: the remaining columns of the product of reflections complete it
+        let square = self.columns.clone().resize_horizontally(n, 0.0);
+        let q = square.qr().q();
+        (self.len()..n).map(|j| q.column(j).iter().copied().collect()).collect()
+    }
+
+    /// Components of `c` along the frame, and what is left of it.
+    pub(super) fn project(&self, c: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let mut rest = DVector::from_column_slice(c);
+        let mut components = DVector::zeros(self.len());
+        for _ in 0..2 {
+            let along = self.q.tr_mul(&rest);
+            rest -= &self.q * &along;
+            components += along;
         }
-        order
+        (components.data.into(), rest.data.into())
     }
 
     /// The combination `x_j` of the vectors with components `y` along the frame: `sum_j x_j c_j = sum_k y_k
     /// q_k`.
     pub(super) fn solve(&self, y: &[f64]) -> Vec<f64> {
-        let mut x = y.to_vec();
-        for j in (0..self.r.len()).rev() {
-            x[j] /= self.r[j][j];
-            let t = x[j];
-            let (above, _) = x.split_at_mut(j);
-            add_scaled(above, -t, &self.r[j]);
-        }
-        x
+        let mut x = DVector::from_column_slice(y);
+        assert!(self.r.solve_upper_triangular_mut(&mut x), "frames are independent");
+        x.data.into()
     }
 
     /// The components `y` along the frame of the point `v = sum_k y_k q_k` with `c_j . v = b_j`.
     pub(super) fn solve_transposed(&self, b: &[f64]) -> Vec<f64> {
-        let mut y: Vec<f64> = Vec::with_capacity(b.len());
-        for (row, b) in self.r.iter().zip(b) {
-            let known = dot(row, &y);
-            y.push((b - known) / row[y.len()]);
-        }
-        y
+        let mut y = DVector::from_column_slice(b);
+        assert!(self.r.tr_solve_upper_triangular_mut(&mut y), "frames are independent");
+        y.data.into()
     }
 
-    /// `sum_k y_k q_k` for a frame of vectors of the given length.
-    pub(super) fn combine(&self, length: usize, y: &[f64]) -> Vec<f64> {
-        let mut sum = vec![0.0; length];
-        for (q, &y) in self.q.iter().zip(y) {
-            add_scaled(&mut sum, y, q);
-        }
-        sum
+    /// `sum_k y_k q_k`.
+    pub(super) fn combine(&self, y: &[f64]) -> Vec<f64> {
+        (&self.q * DVector::from_column_slice(y)).data.into()
     }
 }
 
@@ -131,15 +136,12 @@ mod tests {
     #[test]
     fn frames_are_orthonormal_and_solve() {
         let columns = hilbert(6); // condition 1.5e7
-        let mut frame = Frame::default();
-        for c in &columns {
+        let mut frame = Frame::new(6, &columns[..2]);
+        for c in &columns[2..] {
             assert!(frame.push(c, 1e-12));
         }
-        for (i, p) in frame.q.iter().enumerate() {
-            for (j, q) in frame.q.iter().enumerate() {
-                assert!((dot(p, q) - f64::from(i == j)).abs() < 1e-15);
-            }
-        }
+        let defect = frame.q.tr_mul(&frame.q) - DMatrix::identity(6, 6);
+        assert!(defect.amax() < 2e-15, "{}", defect.amax());
         let x = [1.0, -2.0, 3.0, 0.5, -0.25, 4.0];
         let mut image = vec![0.0; 6];
         for (c, &x) in columns.iter().zip(&x) {
@@ -150,7 +152,7 @@ mod tests {
             assert!((a - b).abs() < 1e-8);
         }
         // the matrix is symmetric: the transposed system has the same solution
-        let v = frame.combine(6, &frame.solve_transposed(&image));
+        let v = frame.combine(&frame.solve_transposed(&image));
         for (a, b) in v.iter().zip(&x) {
             assert!((a - b).abs() < 1e-8);
         }
@@ -164,9 +166,24 @@ mod tests {
             vec![0.0, 0.0, 1.0],
             vec![3.0, 0.0, 4.0],
         ];
-        let mut frame = Frame::default();
-        assert_eq!(frame.push_pivoted(&columns, 1e-12), [3, 1]);
+        let (mut frame, order) = Frame::pivoted(3, &columns, 1e-12);
+        assert_eq!(order, [3, 1]);
         assert!(!frame.push(&columns[2], 1e-12));
+        assert_eq!(frame.complement().len(), 1);
+        assert!(frame.complement()[0][1].abs() > 1.0 - 1e-15);
         assert!(frame.push(&[0.0, 1e-6, 0.0], 1e-12));
+        assert!(!frame.push(&[0.0, 1.0, 1.0], 0.0), "nothing is left of a fourth vector");
+        assert!(frame.complement().is_empty());
+    }
+
+    #[test]
+    fn a_frame_without_vectors() {
+        let frame = Frame::new(3, &[]);
+        let (components, rest) = frame.project(&[1.0, 2.0, 3.0]);
+        assert!(components.is_empty() && rest == [1.0, 2.0, 3.0]);
+        assert!(frame.solve(&[]).is_empty() && frame.combine(&[]) == [0.0; 3]);
+        assert_eq!(frame.complement().len(), 3);
+        let (frame, order) = Frame::pivoted(3, &[], 1e-12);
+        assert!(frame.len() == 0 && order.is_empty());
     }
 }

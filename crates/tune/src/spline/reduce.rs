@@ -72,20 +72,14 @@ impl<'a> Factored<'a> {
     /// Factorises; directions which M shrinks by more than `rank_tolerance` count as undetermined.
     pub(super) fn new(n: usize, rows: &'a [Row], equalities: &'a [Row], rank_tolerance: f64) -> Self {
         let dense: Vec<Vec<f64>> = equalities.iter().map(|row| row.dense(n)).collect();
-        let mut range = Frame::default();
-        let independent = range.push_pivoted(&dense, DEPENDENT);
-        let units: Vec<Vec<f64>> = (0..n).map(|i| (0..n).map(|j| f64::from(i == j)).collect()).collect();
-        let mut whole = range.clone();
-        // at least 1/sqrt(n) is left of some unit vector until the frame is complete
-        whole.push_pivoted(&units, 0.1 / (n as f64).sqrt());
-        let null = whole.q.split_off(range.q.len());
+        let (range, independent) = Frame::pivoted(n, &dense, DEPENDENT);
+        let null = range.complement();
         let free = null.len();
         let columns: Vec<Vec<f64>> = null
             .iter()
             .map(|z| rows.iter().map(|row| row.dot(z)).collect())
             .collect();
-        let mut frame = Frame::default();
-        let order = frame.push_pivoted(&columns, rank_tolerance);
+        let (frame, order) = Frame::pivoted(rows.len(), &columns, rank_tolerance);
         let null = order.iter().map(|&j| null[j].clone()).collect();
         Factored {
             n,
@@ -107,7 +101,7 @@ impl<'a> Factored<'a> {
     /// Takes the right-hand sides y and e; `Err` is the index of an equality that contradicts the others.
     pub(super) fn reduce(&self, y: &[f64], e: &[f64]) -> Result<Reduced, usize> {
         let values: Vec<f64> = self.independent.iter().map(|&i| e[i]).collect();
-        let mut origin = self.range.combine(self.n, &self.range.solve_transposed(&values));
+        let mut origin = self.range.combine(&self.range.solve_transposed(&values));
         let defects: Vec<f64> = self.defects(&origin, e).collect();
         self.restore(&mut origin, &self.range, &defects);
         for (i, (row, value)) in self.equalities.iter().zip(e).enumerate() {
@@ -160,7 +154,7 @@ impl<'a> Factored<'a> {
     /// One step of refinement: adds the shortest vector whose products with the frame's vectors are the given
     /// defects.
     fn restore(&self, x: &mut [f64], frame: &Frame, defects: &[f64]) {
-        let step = frame.combine(self.n, &frame.solve_transposed(defects));
+        let step = frame.combine(&frame.solve_transposed(defects));
         add_scaled(x, 1.0, &step);
     }
 }

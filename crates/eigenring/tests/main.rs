@@ -1,0 +1,13 @@
+//! The command as its users see it: output, files and exit codes, run as a process. One binary, since linking
+//! takes longer than running.
+
+mod common;
+mod contract;
+mod corners;
+mod curve;
+mod errors;
+mod on_demand;
+mod plot;
+mod tables;
+mod tension;
+mod verify;

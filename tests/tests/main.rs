@@ -1,0 +1,24 @@
+//! All tests of this package as one binary: each file is a claim with its oracle, and linking them one by one
+//! takes longer than running them.
+
+mod cases;
+mod contradictions;
+mod corners;
+mod curves;
+mod curves_exact;
+mod embedded_table;
+mod generated;
+mod index;
+mod limits;
+mod numbering_picture;
+mod objective_reference;
+mod oracle;
+mod paper_table_1;
+mod registry;
+mod regular_part;
+mod results_and_paper;
+mod stencil_reference;
+mod tension_reductions;
+mod tension_reference;
+mod tension_results;
+mod user_schemes;
