@@ -61,7 +61,7 @@ fn every_result_belongs_to_one_entry() {
     assert!(stored.is_empty(), "in no entry: {stored:?}");
 }
 
-/// That these tests exist is for the build to say: `.ci/run` looks for each among the tests that were compiled.
+/// That these tests exist is for the build to say: `.ci/run` looks for each among the compiled tests.
 #[test]
 fn every_entry_is_held_to_account() {
     for entry in index().entry {

@@ -1,7 +1,7 @@
 //! Orthonormal frames of a few dense vectors, by Householder's QR factorisation.
 //!
-//! The fits have 17 unknowns, so a frame that grows is factorised again. A projection is done twice: "twice is
-//! enough" (Kahan and Parlett; Giraud, Langou and Rozloznik 2005) for what is left to be orthogonal to
+//! The fits have 17 unknowns, so a frame that grows is factorised again. A projection is done twice: "twice
+//! is enough" (Kahan and Parlett; Giraud, Langou and Rozloznik 2005) for what is left to be orthogonal to
 //! rounding.
 
 use nalgebra::{DMatrix, DVector};
