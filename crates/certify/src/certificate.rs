@@ -21,6 +21,7 @@ use crate::{Check, Error, Input, Interval, Statement, Status, Subject, Witness, 
 use eigenring_scheme::Lattice;
 use eigenring_spectral::Annulus;
 use serde::{Deserialize, Serialize};
+use std::slice;
 
 /// The format that this version reads and writes.
 pub const CERTIFICATE_VERSION: u32 = 2;
@@ -197,7 +198,10 @@ impl<'a> Proof<'a> {
         let dominant = conditions::dominant(&spectrum);
         let (subdominant, lambda) = conditions::subdominant(subject, &spectrum, &mut facts);
         let mut checks = vec![row_sums, hull, dominant, subdominant];
-        checks.extend(levels(subject, lambda.map(|lambda| lambda.value)));
+        checks.extend(levels(
+            subject,
+            lambda.as_ref().map(|lambda| slice::from_ref(&lambda.value)),
+        ));
         let (mut net, mut heights) = (None, Vec::new());
         match &lambda {
             None => {
@@ -226,8 +230,8 @@ impl<'a> Proof<'a> {
     fn of_different_sectors(subject: &'a Subject, mut checks: Vec<Check>, spectrum: &Spectrum) -> Self {
         let (subdominant, pair) = conditions::distinct_pair(spectrum);
         checks.extend([conditions::dominant(spectrum), subdominant]);
-        let least = pair.map(|[_, smaller]| smaller.value);
-        checks.extend(levels(subject, least));
+        let values = pair.map(|pair| pair.map(|entry| entry.value));
+        checks.extend(levels(subject, values.as_ref().map(|values| &values[..])));
         let reason = match pair {
             None => "no subdominant eigenvalues were proven",
             Some(_) => "stated of a double subdominant eigenvalue, and there are two different ones",

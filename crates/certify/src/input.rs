@@ -10,11 +10,12 @@
 //! with exact ones where these exist, and for the lambda-scheme the equalities that its closed forms give
 //! ([`Identities`]).
 
+use crate::levels::Tail;
 use crate::{Error, Interval};
-use eigenring_scheme::families::tension;
+use eigenring_scheme::families::tension_level;
 use eigenring_scheme::lambda::{Member, Plane, Source, Untabulated};
 use eigenring_scheme::user::{Balance, Reading, UserScheme};
-use eigenring_scheme::{Definition, Exact, Level, OneRing, Same, Scalar, Scheme, Shape, Spec, Taps};
+use eigenring_scheme::{Corner, Definition, Exact, Level, OneRing, Same, Scalar, Scheme, Shape, Spec, Taps};
 use serde::{Deserialize, Serialize};
 
 /// A scheme, exactly; see the module page.
@@ -141,6 +142,8 @@ impl Input {
             Input::Family { spec } => {
                 let spec: Spec = spec.parse()?;
                 let exact = spec.exact(valence)?;
+                let corner = Definition::Family(spec.clone()).closed(valence)?;
+                let (tail, affine_levels) = beyond_leading(&spec, &corner)?;
                 // enclosures of exact numbers, or, where levels have roots in them, of the formulas
                 let scheme = match &exact {
                     Some(exact) if exact.leading().is_empty() => enclosed(exact),
@@ -151,16 +154,16 @@ impl Input {
                     exact,
                     identities: None,
                     floating: false,
-                    tends_like_tension: spec.order_and_tension().is_some_and(|(_, u0)| u0 > -1.0),
-                    affine_levels: spec
-                        .order_and_tension()
-                        .is_some_and(|(order, _)| affine_levels(valence, order)),
+                    tail,
+                    affine_levels,
                     balance: Balance::default(),
                 })
             }
             Input::Corner { spec, shape, steps } => {
-                let definition = Definition::Family(spec.parse()?);
+                let spec: Spec = spec.parse()?;
+                let definition = Definition::Family(spec.clone());
                 let corner = shape.corner(definition.centre(), *steps)?;
+                let (tail, affine_levels) = beyond_leading(&spec, &corner)?;
                 let found = corner.sectors().sectors();
                 if found != valence {
                     return Err(Error::Sectors { found, valence });
@@ -175,8 +178,8 @@ impl Input {
                     exact,
                     identities: None,
                     floating: false,
-                    tends_like_tension: false,
-                    affine_levels: false,
+                    tail,
+                    affine_levels,
                     balance: Balance::default(),
                 })
             }
@@ -189,7 +192,7 @@ impl Input {
                     exact: Some(exact.clone()),
                     identities: None,
                     floating: false,
-                    tends_like_tension: false,
+                    tail: None,
                     affine_levels: false,
                     balance: file.balance(valence)?,
                 })
@@ -218,7 +221,7 @@ impl Input {
                     exact: None,
                     identities: None,
                     floating: true,
-                    tends_like_tension: false,
+                    tail: None,
                     affine_levels: false,
                     balance: Balance::default(),
                 })
@@ -238,22 +241,26 @@ pub struct Subject {
     pub identities: Option<Identities>,
     /// Whether the weights are results of rounding.
     pub floating: bool,
-    /// Whether the levels are those of the tension scheme with an initial tension above -1, which tend to the
-    /// limit level.
-    pub tends_like_tension: bool,
+    /// The levels beyond the leading ones, where they are those of the tension scheme.
+    pub tail: Option<Tail>,
     /// Whether the rows of the leading levels sum to 1 whatever the tension is.
     pub affine_levels: bool,
     /// What was balanced in the weights of a file.
     pub balance: Balance,
 }
 
-/// Whether the rows of the tension scheme sum to 1 for every tension. The weights of a pass, times `(1+u)^2`,
-/// are polynomials of degree 2 in u; a sum of such that is `(1+u)^2` at three values of u is so at all.
-fn affine_levels(valence: usize, order: usize) -> bool {
-    [0.0, 2.0, 3.0].into_iter().all(|u| {
-        let scheme = tension::<Exact>(valence, order, u);
-        scheme.is_ok_and(|scheme| passes_are_affine(scheme.level(0)))
-    })
+/// The levels of the tension scheme beyond its leading ones around a corner, and whether the rows of all
+/// levels sum to 1 whatever the tension is. The weights of a pass, times `(1+u)^2`, are polynomials of degree
+/// 2 in u; a sum of such that is `(1+u)^2` at three values of u is so at all.
+fn beyond_leading(spec: &Spec, corner: &Corner) -> Result<(Option<Tail>, bool), Error> {
+    let Some((order, u0)) = spec.order_and_tension() else {
+        return Ok((None, false));
+    };
+    let affine = [0, 2, 3].into_iter().all(|u| {
+        let level = tension_level(corner, order, Exact::ratio(u, 1));
+        level.is_ok_and(|level| passes_are_affine(&level))
+    });
+    Ok((Tail::new(corner, order, u0)?, affine))
 }
 
 /// Whether the weights of every point that a pass makes are known to sum to 1: then those of the whole level
@@ -340,7 +347,7 @@ fn lambda_subject(valence: usize, lambda: f64, s: f64, f2: f64, f3: Option<f64>)
             square: s == 1.0,
         }),
         floating: false,
-        tends_like_tension: false,
+        tail: None,
         affine_levels: false,
         balance: Balance::default(),
     })

@@ -1,91 +1,134 @@
 //! Levels that differ: whether C1 carries over from the limit level.
 //!
 //! Let `S_l` be the local matrices of the levels and S that of the limit level. Rows of all sum to 1, so that
-//! differences from the centre are mapped to such. If S has the subdominant pair lambda and `sum_l lambda^-l
-//! |S_l - S|` is finite, then `lambda^-m S_(m-1) .. S_0` tends, on these differences, to `R L^(0)`: R is the
-//! pair's eigenvectors, `L^(0)` a pair of functionals of the control net. Where `L^(0)` does not vanish, the
-//! rings of almost all nets tend, after scaling, to affine images of the characteristic map of S, and the
-//! surface is C1 with it (asymptotic equivalence: Dyn and Levin 1995, *Analysis of asymptotically equivalent
-//! binary subdivision schemes*, for the regular part; Conti, Donatelli, Romani and Novara 2019, *Convergence
-//! and normal continuity analysis of non-stationary subdivision schemes near extraordinary vertices and
-//! faces*, for the centre). For the tension scheme the hypotheses are checked here:
+//! all map constants to themselves. Let S have the subdominant pair lambda, or the pair `lambda_1 > lambda_2`
+//! of different eigenvalues, and let lambda be the smaller of the two.
 //!
-//! * `u_(l+1) - 1 = (u_l - 1) / (2 (1 + u_(l+1)))`, which for `u_0 > -1` tends to 0, eventually faster than
-//!   `q^l` for every q above 1/4; weights are rational functions of u with poles at -1 only, so that `|S_l -
-//!   S|` does as well. The sum is finite **if lambda > 1/4**, and with it the one that the regular part
-//!   needs, `sum 2^l |S_l - S|`;
+//! **Theorem.** If `|S_l - S| <= c q^l` with `M q < lambda`, M a bound of all `|S_l|`, then `y_m = S_(m-1) ..
+//! S_0 y_0` is, up to a constant net, `r_1 lambda_1^m (l_1 y_0) + r_2 lambda_2^m (l_2 y_0) + o(lambda^m)`: r
+//! are the eigenvectors of the pair, and `l_i = lim w_i S_(m-1) .. S_0 / lambda_i^m` exist, w being the left
+//! eigenvectors. Where `l_1` and `l_2` are linearly independent the rings of almost all nets thus tend, after
+//! scaling, to affine images of the characteristic map of S, and the surface is C1 with it.
+//!
+//! *Why.* The parts of y along `r_1, r_2` and along the complement Z of both and of the constants are driven
+//! by `(S_l - S) y_l`, of size `q^l lambda_1^l` at most: against `lambda_i^l` that is summable, and on Z,
+//! where S has only smaller eigenvalues, what accumulates is `o(lambda^m)`. The ring of level m is the image
+//! of `y_m` under the basis functions of the levels from m on, which differ from those of S in C1 by the
+//! order of `q^m`, since `sum 2^l |S_l - S|` is finite (asymptotic equivalence: Dyn and Levin 1995, *Analysis
+//! of asymptotically equivalent binary subdivision schemes*; around the centre Conti, Donatelli, Romani and
+//! Novara 2019, *Convergence and normal continuity analysis of non-stationary subdivision schemes near
+//! extraordinary vertices and faces*); times `lambda_1^m` that is again `o(lambda^m)`.
+//!
+//! For the tension scheme the hypotheses are checked here:
+//!
+//! * the decay, with q near 1/4 and all levels beyond the leading ones at once: [`Tail`];
 //! * rows of all levels sum to 1: [`rows::row_sums`](crate::rows);
-//! * `L^(0)`, the left eigenvector of S in block 1 times the blocks of the leading levels, is enclosed and
-//!   has an entry that is certainly not zero. From the last listed level on u is 1 to rounding.
+//! * the functionals: w is enclosed, what the tail changes in it is bounded in the 1-norm
+//!   ([`Tail::drift`]), and the leading levels are multiplied on. In block 1 one functional of complex nets
+//!   stands for the pair, and must have an entry that is certainly not zero; of different eigenvalues two
+//!   functionals must have a minor of order two that is not zero.
+//!
+//! A bound of the 1-norm over points bounds the coefficients on the unknowns of a Fourier block, whose unit
+//! vectors are nets of modulus 0 and 1; and the 1-norm of coefficients on unknowns bounds that over points
+//! ([`FourierNet::functional`](eigenring_scheme::FourierNet::functional)).
+
+mod tail;
+
+pub use tail::Tail;
 
 use crate::linear::eigenpair;
 use crate::{Check, Interval, Statement, Subject};
-use eigenring_spectral::{Block, Matrix, fourier_block};
+use eigenring_spectral::{Block, Matrix, fourier_block, local_matrix};
 
-/// `levels`, for schemes that have leading levels.
-pub fn levels(subject: &Subject, lambda: Option<Interval>) -> Option<Check> {
+/// `levels`, for schemes that have leading levels. `pair` holds the subdominant eigenvalue, or the two of
+/// them, the larger first.
+pub fn levels(subject: &Subject, pair: Option<&[Interval]>) -> Option<Check> {
     const NAME: Statement = Statement::Levels;
     if subject.scheme.leading().is_empty() {
         return None;
     }
-    if !subject.tends_like_tension {
+    let Some(tail) = &subject.tail else {
         return Some(Check::undecided(
             NAME,
             "how the levels tend to the limit level is not known",
         ));
-    }
-    let Some(lambda) = lambda else {
+    };
+    let Some(&least) = pair.and_then(<[Interval]>::last) else {
         return Some(Check::undecided(NAME, "no subdominant eigenvalue was proven"));
     };
-    if !lambda.certainly_gt(Interval::point(0.25)) {
-        let text = format!("the levels tend to the limit level like 4^-l, and lambda = {lambda} is not above 1/4");
+    let quarter = Interval::point(0.25);
+    if !least.certainly_gt(quarter) {
+        let text = format!("the levels tend to the limit level like 4^-l, and lambda = {least} is not above 1/4");
         return Some(Check::undecided(NAME, text));
     }
-    if !pair_survives(subject, lambda).unwrap_or(false) {
-        let text = "the leading levels may map all nets to ones without tangents";
+    if !pair_survives(subject, tail, pair.unwrap_or_default()).unwrap_or(false) {
+        let text = "the levels may map all nets to ones without tangents";
         return Some(Check::undecided(NAME, text));
     }
-    let margin = (lambda - Interval::point(0.25)).lo();
     Some(
         Check::proven(NAME)
-            .margin(margin)
-            .remark("levels tend to the limit level like 4^-l, and lambda > 1/4"),
+            .margin((least - quarter).lo())
+            .remark("all levels tend to the limit level like 4^-l, and lambda > 1/4"),
     )
 }
 
-/// Whether the leading levels leave some net with tangents.
-fn pair_survives(subject: &Subject, lambda: Interval) -> Option<bool> {
+/// Whether the levels leave some net with tangents.
+fn pair_survives(subject: &Subject, tail: &Tail, pair: &[Interval]) -> Option<bool> {
     let scheme = &subject.scheme;
     let rings = scheme.closed_rings().ok()?;
-    let block = |level: usize| match fourier_block(scheme.level(level), rings, 1).ok()? {
-        Block::Real(matrix) => Some(matrix),
-        Block::Complex(_) => None,
+    let matrix = |level: usize| {
+        let level = scheme.level(level);
+        if !level.is_rotation_symmetric() {
+            return local_matrix(level, rings).ok();
+        }
+        match fourier_block(level, rings, 1).ok()? {
+            Block::Real(matrix) => Some(matrix),
+            Block::Complex(_) => None,
+        }
     };
     let count = scheme.leading().len();
-    let limit = block(count)?;
-    let transposed = Matrix::from_fn(limit.rows(), limit.rows(), |i, j| limit[(j, i)]);
+    let limit = matrix(count)?;
+    let mut functionals = pair
+        .iter()
+        .map(|&lambda| {
+            let left = left_eigenvector(&limit, lambda)?;
+            let size = left.iter().map(|x| Interval::point(x.mag())).sum();
+            let drift = tail.drift(lambda, size).ok()??;
+            Some(left.into_iter().map(|x| x + Interval::around(0.0, drift)).collect())
+        })
+        .collect::<Option<Vec<Vec<Interval>>>>()?;
+    for level in (0..count).rev() {
+        let matrix = matrix(level)?;
+        for (functional, lambda) in functionals.iter_mut().zip(pair) {
+            // the scale is of no account, and this one keeps it moderate
+            let scale = Interval::point(lambda.mid());
+            *functional = times(functional, &matrix).into_iter().map(|x| x / scale).collect();
+        }
+    }
+    Some(match functionals.as_slice() {
+        [one] => one.iter().any(|entry| entry.certainly_nonzero()),
+        [first, second] => {
+            let minor = |i: usize, j: usize| first[i] * second[j] - first[j] * second[i];
+            (0..first.len()).any(|i| (0..i).any(|j| minor(i, j).certainly_nonzero()))
+        }
+        _ => false,
+    })
+}
+
+/// A left eigenvector of a simple eigenvalue.
+fn left_eigenvector(matrix: &Matrix<Interval>, lambda: Interval) -> Option<Vec<Interval>> {
+    let transposed = Matrix::from_fn(matrix.rows(), matrix.rows(), |i, j| matrix[(j, i)]);
     let rough = Block::Real(transposed.map(Interval::mid))
         .eigenspace((lambda.mid(), 0.0), 1)
         .ok()?;
     let [vector] = rough.right.as_slice() else { return None };
     let vector: Vec<f64> = vector.iter().map(|entry| entry.0).collect();
     let left = eigenpair(&transposed, lambda.mid(), &vector)?;
-    if left.value.disjoint(lambda) {
-        return None;
-    }
-    let mut functional = left.vector;
-    let scale = Interval::point(lambda.mid());
-    for level in (0..count).rev() {
-        let matrix = block(level)?;
-        functional = (0..matrix.rows())
-            .map(|j| {
-                let terms = functional
-                    .iter()
-                    .enumerate()
-                    .map(|(i, &weight)| weight * matrix[(i, j)]);
-                terms.sum::<Interval>() / scale
-            })
-            .collect();
-    }
-    Some(functional.iter().any(|entry| entry.certainly_nonzero()))
+    (!left.value.disjoint(lambda)).then_some(left.vector)
+}
+
+/// A row times a matrix.
+fn times(row: &[Interval], matrix: &Matrix<Interval>) -> Vec<Interval> {
+    let entry = |j: usize| row.iter().enumerate().map(|(i, &x)| x * matrix[(i, j)]).sum();
+    (0..matrix.columns()).map(entry).collect()
 }

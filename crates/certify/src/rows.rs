@@ -3,24 +3,24 @@
 //! Both are read off the rows of the refinement itself, whatever passes it is made of: a refined point is
 //! affinely invariant if the weights of control points in it sum to 1, and in the convex hull if they are not
 //! negative. Beyond the rings that special stencils reach every row is one of the regular ones, so that two
-//! rings more than those show all rows. Levels that differ are looked at one by one, the limit level last.
+//! rings more than those show all rows. Levels that differ are looked at one by one, those beyond the leading
+//! ones with rules that enclose all of theirs, the limit level last.
 
 use crate::exact::{Field, row_sum_defect};
 use crate::{Check, Error, Interval, Statement, Subject, Witness};
 use eigenring_scheme::{Error as SchemeError, Exact, Level, Net, Scalar, Site, refine};
 
-/// The levels of a scheme with their exact twins, and how a message refers to them.
+/// The levels of a scheme with their exact twins, and how a message refers to them: the leading ones, all
+/// beyond them at once, the limit level.
 fn levels(subject: &Subject) -> impl Iterator<Item = (&Level<Interval>, Option<&Level<Exact>>, String)> {
     let count = subject.scheme.leading().len();
-    (0..=count).map(move |index| {
-        let exact = subject.exact.as_ref().map(|exact| exact.level(index));
-        let place = if index < count {
-            format!(" of level {index}")
-        } else {
-            String::new()
-        };
-        (subject.scheme.level(index), exact, place)
-    })
+    let exact = move |index: usize| subject.exact.as_ref().map(|exact| exact.level(index));
+    let leading =
+        (0..count).map(move |index| (subject.scheme.level(index), exact(index), format!(" of level {index}")));
+    let beyond = subject.tail.iter();
+    let beyond = beyond.map(move |tail| (&tail.level, None, format!(" of a level from {count} on")));
+    let limit = (subject.scheme.limit(), exact(count), String::new());
+    leading.chain(beyond).chain([limit])
 }
 
 /// `row_sums`: all rows of all levels sum to 1.

@@ -176,6 +176,28 @@ fn dual_and_two_ring_schemes_are_proven_c1() {
     }
 }
 
+/// Far from 1 and near to it, the levels beyond the leading ones included.
+#[test]
+fn levels_of_any_tension_carry_c1_over() {
+    for (spec, valence) in [
+        ("tension:order=4,u0=-0.9", 3),
+        ("tension:order=5,u0=50", 3),
+        ("tension:order=6,u0=1e100", 6),
+        ("tension:order=4,u0=0.9999999999999999", 5),
+    ] {
+        let certificate = of_spec(spec, valence);
+        for name in [Statement::RowSums, Statement::Levels] {
+            assert_eq!(status(&certificate, name), Status::Proven, "{spec} {valence} {name}");
+        }
+        let hull = if spec.contains("u0=-") {
+            Status::Refuted
+        } else {
+            Status::Proven
+        };
+        assert_eq!(status(&certificate, Statement::Hull), hull, "{spec} {valence}");
+    }
+}
+
 #[test]
 fn a_row_sum_off_by_a_billionth_is_refuted() {
     let certificate = certify(altered(&[("f1", "250000001/1000000000")]), 5).unwrap();

@@ -8,8 +8,8 @@
 //! a tension parameter*, section 4; for order 4 at u = 1 these are the rules of Hoppe and others 1994 and of
 //! DeRose, Kass and Truong 1998).
 
-use super::tension::{Name, Values, smoothing_names};
-use crate::{Corner, Error, Fan, Lattice, Level, Line, Pass, Scalar, Site, Stencil};
+use super::tension::{Name, smoothing_names};
+use crate::{Corner, Error, Lattice, Level, Line, Pass, Scalar, Site, Stencil};
 
 const EDGE: Site = Site { sector: 0, x: 2, y: 0 };
 const FACE: Site = Site { sector: 0, x: 2, y: 2 };
@@ -104,10 +104,4 @@ pub(super) fn bicubic<S: Scalar>(corner: &Corner, vertex: Stencil<S>) -> Result<
         Pass::by_sector(Lattice::Vertex, Lattice::Vertex, lines.collect())
     };
     Level::new(fan, vec![pass.with(Site::CENTRE, centre)])
-}
-
-/// The values of a level of order k around a corner at a tension.
-pub(super) fn valued<S: Scalar>(names: &Level<Name>, fan: Fan, u: S) -> Level<S> {
-    let values = Values::new(fan.sectors(), u);
-    names.map(|name| values.of(*name))
 }

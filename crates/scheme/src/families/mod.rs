@@ -44,15 +44,41 @@ pub fn catmull_clark_around<S: Scalar>(corner: &Corner) -> Result<Scheme<S>, Err
     Ok(Scheme::stationary(NAME, features::bicubic(corner, vertex)?))
 }
 
-/// The tension scheme of an even order around any vertex.
+/// The tension scheme around any corner of its own kind of centre.
 ///
 /// # Errors
-/// Those of [`tension`]; [`Error::Unsupported`] for odd orders beside boundaries and creases, for knot
-/// intervals, and for creases that act in more steps than there are.
+/// Those of [`tension`] and [`tension_level`].
 pub fn tension_around<S: Scalar>(corner: &Corner, order: usize, u0: f64) -> Result<Scheme<S>, Error> {
+    let names = tension_names(corner, order)?;
+    tension::check_tension(u0)?;
+    let mut tensions = tension::tensions::<S>(u0);
+    let limit = tensions.pop().unwrap_or_else(S::one);
+    let leading = tensions.into_iter().map(|u| tension::valued(&names, u)).collect();
+    let name = format!("tension:order={order},u0={u0}");
+    Ok(Scheme::new(name, leading, tension::valued(&names, limit)))
+}
+
+/// One level of the tension scheme around a corner at the tension `u`; the limit level is that of `u = 1`.
+///
+/// # Errors
+/// [`Error::Order`]; [`Error::Unsupported`] for odd orders beside boundaries and creases, for knot intervals,
+/// and for creases that act in more steps than there are.
+pub fn tension_level<S: Scalar>(corner: &Corner, order: usize, u: S) -> Result<Level<S>, Error> {
+    Ok(tension::valued(&tension_names(corner, order)?, u))
+}
+
+/// The tension of the first level after the leading ones that [`tension`] lists, at which it is 1 to rounding
+/// in doubles. `None` for `u0 = 1`, where all levels are the limit level.
+pub fn tension_after_leading<S: Scalar>(u0: f64) -> Option<S> {
+    let mut tensions = tension::tensions::<S>(u0);
+    tensions.pop();
+    tensions.pop().map(tension::next_tension)
+}
+
+fn tension_names(corner: &Corner, order: usize) -> Result<Level<tension::Name>, Error> {
     let sectors = corner.sectors().sectors();
-    // a valence of 4 stands for fans of any size in the check of order and tension
-    let plain: Scheme<S> = tension(if corner.is_plain() { sectors } else { 4 }, order, u0)?;
+    // a valence of 4 stands for fans of any size in the check of the order
+    let plain = tension::names(if corner.is_plain() { sectors } else { 4 }, order)?;
     let most = (order / 2).saturating_sub(1);
     let centre = if order.is_multiple_of(2) {
         Centre::Vertex
@@ -60,7 +86,7 @@ pub fn tension_around<S: Scalar>(corner: &Corner, order: usize, u0: f64) -> Resu
         Centre::Face
     };
     let refuse = |accepted: String| Error::Unsupported {
-        scheme: plain.name().to_owned(),
+        scheme: format!("tension:order={order}"),
         corner: corner.to_string(),
         accepted,
     };
@@ -78,10 +104,5 @@ pub fn tension_around<S: Scalar>(corner: &Corner, order: usize, u0: f64) -> Resu
     if corner.steps().is_some_and(|steps| steps > most) {
         return Err(refuse(format!("creases that act in 0 to {most} smoothing steps")));
     }
-    let names = features::level(corner, order)?;
-    let level = |u: S| -> Level<S> { features::valued(&names, corner.sectors(), u) };
-    let mut tensions = tension::tensions::<S>(u0);
-    let limit = tensions.pop().unwrap_or_else(S::one);
-    let leading = tensions.into_iter().map(level).collect();
-    Ok(Scheme::new(plain.name(), leading, level(limit)))
+    features::level(corner, order)
 }

@@ -34,6 +34,19 @@ const MAX_LEADING: usize = 600;
 /// [`Error::Valence`] below 3, [`Error::Order`] unless 3 <= order <= [`MAX_ORDER`], [`Error::Tension`] unless
 /// u0 is finite and above -1.
 pub fn tension<S: Scalar>(valence: usize, order: usize, u0: f64) -> Result<Scheme<S>, Error> {
+    let names = names(valence, order)?;
+    check_tension(u0)?;
+    let mut tensions = tensions::<S>(u0);
+    let limit = tensions.pop().unwrap_or_else(S::one);
+    Ok(Scheme::new(
+        format!("tension:order={order},u0={u0}"),
+        tensions.into_iter().map(|u| valued(&names, u)).collect(),
+        valued(&names, limit),
+    ))
+}
+
+/// A level around a closed fan over the names of its weights.
+pub(super) fn names(valence: usize, order: usize) -> Result<Level<Name>, Error> {
     if valence < 3 {
         return Err(Error::Valence { valence });
     }
@@ -43,24 +56,29 @@ pub fn tension<S: Scalar>(valence: usize, order: usize, u0: f64) -> Result<Schem
             maximum: MAX_ORDER,
         });
     }
-    if !(u0.is_finite() && u0 > -1.0) {
-        return Err(Error::Tension { tension: u0 });
+    match order % 2 {
+        0 => even(valence, order),
+        _ => odd(valence, order),
     }
-    let names = match order % 2 {
-        0 => even(valence, order)?,
-        _ => odd(valence, order)?,
-    };
-    let level = |u: S| -> Level<S> {
-        let values = Values::new(valence, u);
-        names.map(|name| values.of(*name))
-    };
-    let mut tensions = tensions::<S>(u0);
-    let limit = tensions.pop().unwrap_or_else(S::one);
-    Ok(Scheme::new(
-        format!("tension:order={order},u0={u0}"),
-        tensions.into_iter().map(level).collect(),
-        level(limit),
-    ))
+}
+
+pub(super) fn check_tension(u0: f64) -> Result<(), Error> {
+    if u0.is_finite() && u0 > -1.0 {
+        Ok(())
+    } else {
+        Err(Error::Tension { tension: u0 })
+    }
+}
+
+/// A level at a tension.
+pub(super) fn valued<S: Scalar>(names: &Level<Name>, u: S) -> Level<S> {
+    let values = Values::new(names.fan().sectors(), u);
+    names.map(|name| values.of(*name))
+}
+
+/// The tension of the next level: the half-angle formula.
+pub(super) fn next_tension<S: Scalar>(u: S) -> S {
+    ((S::one() + u) / S::ratio(2, 1)).sqrt()
 }
 
 /// The tensions of all levels, the limit's, which is 1, last.
@@ -74,7 +92,7 @@ pub(super) fn tensions<S: Scalar>(u0: f64) -> Vec<S> {
         if next == rough {
             break;
         }
-        (rough, u) = (next, ((S::one() + u) / S::ratio(2, 1)).sqrt());
+        (rough, u) = (next, next_tension(u));
     }
     tensions.push(S::one());
     tensions
