@@ -123,24 +123,23 @@ fn hull(scheme: &Scheme<f64>) -> Result<Option<f64>, Error> {
     Ok(least)
 }
 
-/// Measures schemes, each with what it is called, at all valences: valence by valence, in the order of the
-/// schemes.
+/// Measures schemes at all valences: valence by valence, in the order of the schemes.
 ///
 /// # Errors
 /// Those of the names and of [`Row::new`].
-pub fn compare(schemes: &[(String, SchemeName)], valences: &[usize], tuner: &Tuner<'_>) -> Result<Vec<Row>, Error> {
-    let pairs: Vec<(usize, &(String, SchemeName))> = valences
+pub fn compare(schemes: &[SchemeName], valences: &[usize], tuner: &Tuner<'_>) -> Result<Vec<Row>, Error> {
+    let pairs: Vec<(usize, &SchemeName)> = valences
         .iter()
         .flat_map(|&valence| schemes.iter().map(move |scheme| (valence, scheme)))
         .collect();
     // what must be tuned is tuned one after the other: all threads work on each, and it is remembered for the
     // next
-    let found: Vec<(&str, Scheme<f64>)> = pairs
+    let found: Vec<Scheme<f64>> = pairs
         .into_iter()
-        .map(|(valence, (name, scheme))| Ok((name.as_str(), scheme.scheme(valence, tuner)?)))
+        .map(|(valence, scheme)| scheme.scheme(valence, tuner))
         .collect::<Result<_, Error>>()?;
-    each(tuner.progress, "schemes", &found, |(name, scheme)| {
-        Row::new(name, scheme)
+    each(tuner.progress, "schemes", &found, |scheme| {
+        Row::new(scheme.name(), scheme)
     })
 }
 

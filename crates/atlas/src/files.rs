@@ -4,8 +4,16 @@ use crate::error::{Accepted, Error};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
+/// Whether writing makes a file of this name, which takes the place of one that is there: not so for devices
+/// and pipes, which are written into.
+pub fn is_replaced(path: &Path) -> bool {
+    // what a shell has opened for somebody else is not ours to replace, even if it is a file
+    let opened = ["/dev", "/proc"].iter().any(|folder| path.starts_with(folder));
+    !opened && std::fs::metadata(path).map_or(true, |there| there.is_file() || there.is_dir())
+}
+
 /// Writes a file under a temporary name in the same folder and renames it when it is complete. Folders are
-/// made as needed.
+/// made as needed, links are followed, and devices and pipes are written into.
 ///
 /// # Errors
 /// [`Error::Write`].
@@ -14,6 +22,20 @@ pub fn write(path: &Path, contents: &[u8]) -> Result<(), Error> {
         path: path.to_owned(),
         source,
     };
+    if !is_replaced(path) {
+        let mut device = std::fs::File::options().write(true).open(path).map_err(failed)?;
+        return match device.write_all(contents).and_then(|()| device.flush()) {
+            // a reader that has gone away is no error
+            Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+            result => result.map_err(failed),
+        };
+    }
+    // a link stays one, and what it leads to is replaced
+    let target = match path.is_symlink() {
+        true => path.canonicalize().map_err(failed)?,
+        false => path.to_owned(),
+    };
+    let path = target.as_path();
     let folder = match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
@@ -132,6 +154,22 @@ mod tests {
         assert_eq!(read(&path).unwrap(), "two");
         let names: Vec<_> = std::fs::read_dir(path.parent().unwrap()).unwrap().collect();
         assert_eq!(names.len(), 1);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn devices_are_written_into_and_links_stay() {
+        use std::os::unix::fs::FileTypeExt;
+        let null = Path::new("/dev/null");
+        write(null, b"gone").unwrap();
+        assert!(std::fs::metadata(null).unwrap().file_type().is_char_device());
+        let folder = tempfile::tempdir().unwrap();
+        let (file, link) = (folder.path().join("file"), folder.path().join("link"));
+        write(&file, b"one").unwrap();
+        std::os::unix::fs::symlink(&file, &link).unwrap();
+        write(&link, b"two").unwrap();
+        assert!(link.is_symlink());
+        assert_eq!(read(&file).unwrap(), "two");
     }
 
     #[test]

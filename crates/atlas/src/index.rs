@@ -12,6 +12,7 @@
 use crate::error::{Accepted, Error, accepted_in};
 use crate::files;
 use crate::results::EVERYTHING;
+use eigenring_scheme::did_you_mean;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
@@ -131,15 +132,14 @@ impl Index {
             .filter(|entry| only.is_none_or(|name| entry.name == name))
             .collect();
         match (only, selected.is_empty()) {
-            (Some(name), true) => Err(Error::Usage {
-                message: format!("nothing is called '{name}'"),
-                accepted: self
-                    .entries
-                    .iter()
-                    .map(|entry| entry.name.as_str())
-                    .collect::<Vec<_>>()
-                    .join(", "),
-            }),
+            (Some(name), true) => {
+                let names: Vec<&str> = self.entries.iter().map(|entry| entry.name.as_str()).collect();
+                let similar = did_you_mean(name, names.iter().copied());
+                Err(Error::Usage {
+                    message: format!("nothing is called '{name}'{similar}"),
+                    accepted: names.join(", "),
+                })
+            }
             _ => Ok(selected),
         }
     }

@@ -31,24 +31,62 @@ fn check_json(check: &Check) -> Value {
     })
 }
 
-/// A certificate, with the verdict on what is required.
-pub fn certificate(certificate: &Certificate, requirement: Requirement, format: Format) -> String {
-    let (holds, status) = requirement.verdict(&certificate.checks);
-    let (scheme, valence) = (certificate.input.name(), certificate.valence);
-    if format == Format::Json {
-        let checks: Vec<Value> = certificate.checks.iter().map(check_json).collect();
-        return pretty(&json!({
-            "scheme": scheme,
-            "valence": valence,
-            "corner": certificate.input.corner(),
-            "require": requirement.name(),
-            "status": status,
-            "holds": holds,
-            "degree": certificate.degree,
-            "balanced": certificate.balanced,
-            "checks": checks,
-        }));
+/// Certificates, each with the verdict on what is required: in JSON an object, or a list of several; CSV and
+/// LaTeX begin with a column of valences if there are several.
+pub fn certificates(certificates: &[Certificate], requirement: Requirement, format: Format) -> String {
+    several(
+        certificates,
+        format,
+        |certificate| certificate_json(certificate, requirement),
+        |certificate| certificate_text(certificate, requirement),
+        |certificate| (certificate.valence, certificate_table(certificate)),
+    )
+}
+
+/// What is said of several things of one kind, each at a valence.
+fn several<C>(
+    all: &[C],
+    format: Format,
+    json: impl Fn(&C) -> Value,
+    text: impl Fn(&C) -> String,
+    table: impl Fn(&C) -> (usize, Table),
+) -> String {
+    match (format, all) {
+        (Format::Text, _) => all.iter().map(text).collect::<Vec<_>>().join("\n"),
+        (Format::Json, [one]) => pretty(&json(one)),
+        (Format::Json, _) => pretty(&Value::Array(all.iter().map(json).collect())),
+        (_, [one]) => table(one).1.render(format),
+        _ => {
+            let mut whole: Option<Table> = None;
+            for (valence, table) in all.iter().map(table) {
+                let table = table.beside("valence", valence);
+                match &mut whole {
+                    Some(whole) => whole.append(table),
+                    None => whole = Some(table),
+                }
+            }
+            whole.unwrap_or_default().render(format)
+        }
     }
+}
+
+fn certificate_json(certificate: &Certificate, requirement: Requirement) -> Value {
+    let (holds, status) = requirement.verdict(&certificate.checks);
+    let checks: Vec<Value> = certificate.checks.iter().map(check_json).collect();
+    json!({
+        "scheme": certificate.input.name(),
+        "valence": certificate.valence,
+        "corner": certificate.input.corner(),
+        "require": requirement.name(),
+        "status": status,
+        "holds": holds,
+        "degree": certificate.degree,
+        "balanced": certificate.balanced,
+        "checks": checks,
+    })
+}
+
+fn certificate_table(certificate: &Certificate) -> Table {
     let mut table = Table::new(["check", "status", "margin", "value", "remark"]);
     for check in &certificate.checks {
         let remark = check.witness.as_ref().map(|witness| witness.text.clone());
@@ -60,20 +98,21 @@ pub fn certificate(certificate: &Certificate, requirement: Requirement, format: 
             remark.or(check.reached.clone()).unwrap_or_default().into(),
         ]);
     }
-    let text = table.render(format);
-    match format {
-        Format::Text => {
-            let corner = certificate.input.corner().filter(|corner| corner != "closed");
-            let corner = corner.map_or(String::new(), |corner| format!(", {corner}"));
-            let degree = certificate.degree;
-            let degree = degree.map_or(String::new(), |degree| format!(", regular surface of degree {degree}"));
-            format!(
-                "{scheme}, N = {valence}{corner}{degree}\n\n{text}\n{} is {status}\n",
-                requirement.name()
-            )
-        }
-        _ => text,
-    }
+    table
+}
+
+fn certificate_text(certificate: &Certificate, requirement: Requirement) -> String {
+    let (_, status) = requirement.verdict(&certificate.checks);
+    let (scheme, valence) = (certificate.input.name(), certificate.valence);
+    let corner = certificate.input.corner().filter(|corner| corner != "closed");
+    let corner = corner.map_or(String::new(), |corner| format!(", {corner}"));
+    let degree = certificate.degree;
+    let degree = degree.map_or(String::new(), |degree| format!(", regular surface of degree {degree}"));
+    format!(
+        "{scheme}, N = {valence}{corner}{degree}\n\n{}\n{} is {status}\n",
+        certificate_table(certificate).render(Format::Text),
+        requirement.name()
+    )
 }
 
 /// The statements of a range certificate.
@@ -98,36 +137,49 @@ fn segments_json(segments: &[Segment]) -> Vec<Value> {
     segments.iter().map(one).collect()
 }
 
-/// A certificate of a range, with the intervals on which the requirement holds.
-pub fn range(certificate: &RangeCertificate, requirement: Requirement, format: Format) -> String {
+/// Certificates of ranges, each with the intervals on which the requirement holds; as [`certificates`] if
+/// there are several.
+pub fn ranges(certificates: &[RangeCertificate], requirement: Requirement, format: Format) -> String {
+    several(
+        certificates,
+        format,
+        |certificate| range_json(certificate, requirement),
+        |certificate| range_text(certificate, requirement),
+        |certificate| (certificate.valence, range_table(certificate, requirement)),
+    )
+}
+
+fn range_json(certificate: &RangeCertificate, requirement: Requirement) -> Value {
     let required = certificate.required(requirement);
-    if format == Format::Json {
-        let checks: Vec<Value> = STATEMENTS
-            .iter()
-            .map(|&name| {
-                let segments = certificate.segments(name);
-                let (status, holds) = whole(&segments);
-                json!({ "name": name, "status": status, "holds": holds, "rigorous": status != Status::Undecided,
+    let checks: Vec<Value> = STATEMENTS
+        .iter()
+        .map(|&name| {
+            let segments = certificate.segments(name);
+            let (status, holds) = whole(&segments);
+            json!({ "name": name, "status": status, "holds": holds, "rigorous": status != Status::Undecided,
                     "segments": segments_json(&segments) })
-            })
-            .collect();
-        let (status, holds) = whole(&required);
-        return pretty(&json!({
-            "scheme": "lambda",
-            "valence": certificate.valence,
-            "lambda": certificate.lambda,
-            "require": requirement.name(),
-            "status": status,
-            "holds": holds,
-            "segments": segments_json(&required),
-            "checks": checks,
-        }));
-    }
+        })
+        .collect();
+    let (status, holds) = whole(&required);
+    json!({
+        "scheme": "lambda",
+        "valence": certificate.valence,
+        "lambda": certificate.lambda,
+        "require": requirement.name(),
+        "status": status,
+        "holds": holds,
+        "segments": segments_json(&required),
+        "checks": checks,
+    })
+}
+
+fn range_table(certificate: &RangeCertificate, requirement: Requirement) -> Table {
+    let required = certificate.required(requirement);
     let mut table = Table::new(["statement", "from", "to", "status", "remark"]);
     let lists = STATEMENTS
         .iter()
         .map(|&name| (name.to_string(), certificate.segments(name)));
-    for (name, segments) in lists.chain([(format!("= {}", requirement.name()), required.clone())]) {
+    for (name, segments) in lists.chain([(format!("= {}", requirement.name()), required)]) {
         for segment in segments {
             table.push(vec![
                 name.clone().into(),
@@ -138,22 +190,21 @@ pub fn range(certificate: &RangeCertificate, requirement: Requirement, format: F
             ]);
         }
     }
-    let text = table.render(format);
-    match format {
-        Format::Text => {
-            let [start, end] = certificate.lambda;
-            let tiles: usize = certificate.tiles.values().map(Vec::len).sum();
-            format!(
-                "lambda-scheme, N = {}, every lambda from {} to {} ({tiles} tiles)\n\n{text}\n{} is {}\n",
-                certificate.valence,
-                short(start),
-                short(end),
-                requirement.name(),
-                whole(&required).0,
-            )
-        }
-        _ => text,
-    }
+    table
+}
+
+fn range_text(certificate: &RangeCertificate, requirement: Requirement) -> String {
+    let [start, end] = certificate.lambda;
+    let tiles: usize = certificate.tiles.values().map(Vec::len).sum();
+    format!(
+        "lambda-scheme, N = {}, every lambda from {} to {} ({tiles} tiles)\n\n{}\n{} is {}\n",
+        certificate.valence,
+        short(start),
+        short(end),
+        range_table(certificate, requirement).render(Format::Text),
+        requirement.name(),
+        whole(&certificate.required(requirement)).0,
+    )
 }
 
 /// The status of a statement on a whole range: refuted if it is so somewhere, proven if it is so everywhere.

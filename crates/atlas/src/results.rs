@@ -4,7 +4,7 @@
 //! one on disk.
 
 use crate::run::Parameters;
-use crate::table::{Cell, Format, Table};
+use crate::table::{Cell, Format, Table, short};
 use eigenring_scheme::lambda::LambdaTable;
 use eigenring_tune::study::{Knots, Study};
 use eigenring_tune::sweep::{Options, Range};
@@ -173,6 +173,45 @@ pub fn summary(studies: &[Study]) -> Table {
         ]);
     }
     table
+}
+
+/// What the summary says, in sentences.
+pub fn in_words(studies: &[Study]) -> String {
+    let samples: usize = studies.iter().map(|study| study.samples.len()).sum();
+    let differences = studies.iter().filter_map(|study| {
+        let paper = study.featured("lambda_C").and_then(|f| f.paper)?;
+        Some((study.global.optimum().lambda - paper).abs())
+    });
+    let paper = match differences.reduce(f64::max) {
+        Some(largest) => format!(
+            " The optimal lambdas differ from the published ones by up to {}.",
+            short(largest)
+        ),
+        None => String::new(),
+    };
+    let excess = studies.iter().map(|study| study.accuracy.excess).fold(0.0, f64::max);
+    let (valences, list) = (studies.len(), ranges(studies.iter().map(|study| study.valence)));
+    format!(
+        "{samples} stencils were tuned at {valences} valence{} (N = {list}).{paper} The objective of the splines exceeds that of the samples by up to {}.",
+        if valences == 1 { "" } else { "s" },
+        short(excess),
+    )
+}
+
+/// Ascending numbers as ranges, such as `3..8, 12`.
+pub(crate) fn ranges(numbers: impl IntoIterator<Item = usize>) -> String {
+    let mut found: Vec<(usize, usize)> = Vec::new();
+    for number in numbers {
+        match found.last_mut() {
+            Some((_, last)) if *last + 1 == number => *last = number,
+            _ => found.push((number, number)),
+        }
+    }
+    let text = |&(first, last): &(usize, usize)| match last - first {
+        0 => first.to_string(),
+        _ => format!("{first}..{last}"),
+    };
+    found.iter().map(text).collect::<Vec<_>>().join(", ")
 }
 
 /// The tables by file name. Those that the paper has are numbered as there.

@@ -11,7 +11,7 @@ use crate::run::minima_over_lambda;
 use crate::table::short;
 use eigenring_scheme::lambda::{Bounds, Domain, Member, Plane, Source, Untabulated};
 use eigenring_scheme::user::{Reading, UserScheme};
-use eigenring_scheme::{Centre, Corner, Definition, Scheme, Spec};
+use eigenring_scheme::{Centre, Corner, Definition, Scheme, Spec, registry};
 use eigenring_tune::sweep::{Options, Problem};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -181,15 +181,45 @@ pub enum SchemeName {
     File(PathBuf),
 }
 
+/// How a scheme file is named.
+const FILE: &str = "file:SCHEME.toml";
+
 impl FromStr for SchemeName {
     type Err = eigenring_scheme::Error;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        match text.strip_prefix("file:") {
-            Some(path) => Ok(SchemeName::File(PathBuf::from(path))),
-            None => Ok(SchemeName::Spec(text.parse()?)),
+        if let Some(path) = text.strip_prefix("file:") {
+            return Ok(SchemeName::File(PathBuf::from(unquoted(path))));
         }
+        let spec = text.parse().map_err(|error| match error {
+            // a name of no family is likely that of a file
+            eigenring_scheme::Error::Spec { spec, reason, accepted } if !is_family(&spec) => {
+                let meant = match spec.ends_with(".toml") {
+                    true => format!(" (did you mean 'file:{spec}'?)"),
+                    false => String::new(),
+                };
+                eigenring_scheme::Error::Spec {
+                    spec,
+                    reason: reason + &meant,
+                    accepted: format!("{accepted} | {FILE}"),
+                }
+            }
+            other => other,
+        })?;
+        Ok(SchemeName::Spec(spec))
     }
+}
+
+/// Whether a spec begins with the name of a family.
+fn is_family(spec: &str) -> bool {
+    let name = spec.split(':').next();
+    registry().iter().any(|family| Some(family.name) == name)
+}
+
+/// A path without the quotes that keep its commas together.
+fn unquoted(path: &str) -> &str {
+    let inner = path.strip_prefix('"').and_then(|path| path.strip_suffix('"'));
+    inner.unwrap_or(path)
 }
 
 impl SchemeName {
@@ -272,39 +302,41 @@ pub(crate) fn stem(path: &Path) -> String {
         .map_or("scheme".into(), |stem| stem.to_string_lossy().into_owned())
 }
 
-/// Splits a list of specs at commas; a comma followed by `name=value` continues a spec's parameters.
+/// Splits a list of specs at commas that are not between quotes. A piece `name=value` continues the spec
+/// before it, any other begins a new one.
 fn split(list: &str) -> Vec<String> {
+    let mut quoted = false;
+    let pieces = list.split(|letter| {
+        quoted ^= letter == '"';
+        letter == ',' && !quoted
+    });
     let mut specs: Vec<String> = Vec::new();
-    for part in list.split(',') {
-        let continues = part.contains('=') && !part.contains(':');
+    for piece in pieces {
+        let continues = piece.split(['"', ':']).next().is_some_and(|start| start.contains('='));
         match specs.last_mut() {
             Some(spec) if continues => {
                 spec.push(',');
-                spec.push_str(part);
+                spec.push_str(piece);
             }
-            _ => specs.push(part.to_owned()),
+            _ => specs.push(piece.to_owned()),
         }
     }
     specs
 }
 
-/// Schemes as a list `SPEC,SPEC,..`, each with its text. A piece `key=value` continues the spec before it.
+/// Schemes as a list `SPEC,SPEC,..`. A piece `key=value` continues the spec before it; a path with commas
+/// stands in quotes, or is a list by itself.
 #[derive(Clone, Debug)]
-pub struct SchemeList(pub Vec<(String, SchemeName)>);
+pub struct SchemeList(pub Vec<SchemeName>);
 
 impl FromStr for SchemeList {
     type Err = eigenring_scheme::Error;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let parse = |spec: String| {
-            let scheme = spec.parse()?;
-            Ok((spec, scheme))
-        };
-        split(text)
-            .into_iter()
-            .map(parse)
-            .collect::<Result<_, _>>()
-            .map(SchemeList)
+        let alone = text.strip_prefix("file:").is_some_and(|path| Path::new(path).is_file());
+        let specs = if alone { vec![text.to_owned()] } else { split(text) };
+        let schemes = specs.iter().map(|spec| spec.parse());
+        schemes.collect::<Result<_, _>>().map(SchemeList)
     }
 }
 
@@ -323,6 +355,32 @@ mod tests {
                 "file:a.toml",
                 "lambda:optimal"
             ]
+        );
+        assert_eq!(
+            split("file:\"a,b.toml\",file:\"c=d,e.toml\",x=1,stam:order=4"),
+            ["file:\"a,b.toml\"", "file:\"c=d,e.toml\",x=1", "stam:order=4"]
+        );
+        let name: SchemeName = "file:\"a,b.toml\"".parse().unwrap();
+        assert_eq!(name, SchemeName::File("a,b.toml".into()));
+    }
+
+    #[test]
+    fn names_of_no_family_list_files_too() {
+        for (text, meant) in [
+            ("catmul-clark", "did you mean 'catmull-clark'?"),
+            ("mine.toml", "did you mean 'file:mine.toml'?"),
+            ("nonsense", "no such family"),
+        ] {
+            let message = text.parse::<SchemeName>().unwrap_err().to_string();
+            assert!(
+                message.contains(meant) && message.ends_with("| file:SCHEME.toml"),
+                "{message}"
+            );
+        }
+        let message = "tension:odrer=4".parse::<SchemeName>().unwrap_err().to_string();
+        assert!(
+            message.contains("'odrer' (did you mean 'order'?)") && !message.contains("file:"),
+            "{message}"
         );
     }
 

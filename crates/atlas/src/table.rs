@@ -128,6 +128,20 @@ impl Table {
         self.rows.push(row);
     }
 
+    /// The table with one more column, the first, whose cells are all alike.
+    pub fn beside(mut self, column: &str, cell: impl Into<Cell>) -> Self {
+        let cell = cell.into();
+        self.columns.insert(0, column.to_owned());
+        self.rows.iter_mut().for_each(|row| row.insert(0, cell.clone()));
+        self
+    }
+
+    /// Adds the rows of a table with the same columns.
+    pub fn append(&mut self, other: Table) {
+        debug_assert_eq!(self.columns, other.columns, "rows have one cell for each column");
+        self.rows.extend(other.rows);
+    }
+
     /// The table in a format; JSON as a list of objects.
     pub fn render(&self, format: Format) -> String {
         match format {

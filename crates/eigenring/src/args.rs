@@ -2,30 +2,18 @@
 
 use crate::error::Error;
 use crate::progress::Terminal;
+use crate::valences;
 use clap::{Args, ValueEnum};
 use eigenring_atlas::cache::Cache;
-use eigenring_atlas::schemes::Tuner;
-use eigenring_atlas::table::Format;
+use eigenring_atlas::schemes::{SchemeList, SchemeName, Tuner};
 use eigenring_scheme::Shape;
 use eigenring_scheme::lambda::Bounds;
 use eigenring_tune::objective::{Normalisation, Settings};
 use eigenring_tune::search::Starts;
 use eigenring_tune::sweep::Options;
-use std::ops::RangeInclusive;
-use std::str::FromStr;
-
-/// The largest valence the command takes. Local matrices grow with the square of the valence, and nothing
-/// beyond is met in practice.
-pub const MAX_VALENCE: usize = 1000;
 
 /// The default margin, that of [`Options`], as it is printed in help texts.
 pub const MARGIN: &str = "2e-6";
-
-/// Reads a valence.
-pub fn valence(text: &str) -> Result<usize, String> {
-    let valence = text.parse().ok().filter(|valence| (3..=MAX_VALENCE).contains(valence));
-    valence.ok_or_else(|| format!("accepted is 3 to {MAX_VALENCE}"))
-}
 
 /// Reads a number. Its range, which may depend on other arguments, is for the command to check, and so is
 /// NaN.
@@ -47,9 +35,6 @@ pub fn count(text: &str) -> Result<usize, String> {
 /// What the scheme sees at its centre: a closed fan of N sectors, unless an option says otherwise.
 #[derive(Args, Clone, Debug)]
 pub struct CornerArgs {
-    /// Valence; may be left out with --fan and --knots, which fix it
-    #[arg(short = 'N', long, value_name = "N", value_parser = valence, allow_negative_numbers = true)]
-    valence: Option<usize>,
     /// A boundary vertex, or one side of a crease vertex, with so many faces
     #[arg(long, value_name = "FACES", value_parser = count, allow_negative_numbers = true, conflicts_with_all = ["dart", "cusp", "knots"])]
     fan: Option<usize>,
@@ -74,29 +59,41 @@ pub struct CornerArgs {
 }
 
 impl CornerArgs {
-    /// The shape, and in how many steps creases act.
-    ///
-    /// # Errors
-    /// A valence that is missing or is not that of the shape.
-    pub fn shape(&self) -> Result<(Shape, Option<usize>), Error> {
-        let fixed = match self.fan {
+    /// The number of sectors that these options fix, with the option that does.
+    fn fixed(&self) -> Option<(&'static str, usize)> {
+        match self.fan {
             Some(faces) => Some(("--fan", faces)),
             None if !self.knots.is_empty() => Some(("--knots", self.knots.len())),
             None => None,
-        };
-        let sectors = match (fixed, self.valence) {
+        }
+    }
+
+    /// The shape at a valence, and in how many steps creases act.
+    ///
+    /// # Errors
+    /// A valence that is missing or is not that of the shape.
+    pub fn shape(&self, valence: Option<usize>) -> Result<(Shape, Option<usize>), Error> {
+        // the parser lets an option pass whose partner conflicts with another one
+        if self.corner && self.fan.is_none() {
+            return Err(Error::usage(
+                "--corner has no meaning without --fan",
+                "--corner with --fan FACES",
+            ));
+        }
+        if !self.next.is_empty() && self.knots.is_empty() {
+            return Err(Error::usage(
+                "--next has no meaning without --knots",
+                "--next with --knots D0,D1,..",
+            ));
+        }
+        let sectors = match (self.fixed(), valence) {
             (Some((option, sectors)), Some(valence)) if valence != sectors => {
                 let message = format!("-N is {valence}, and {option} gives {sectors}");
                 return Err(Error::usage(message, format!("{sectors}, or no -N")));
             }
             (Some((_, sectors)), _) => sectors,
-            (None, Some(valence)) => valence,
-            (None, None) => {
-                return Err(Error::usage(
-                    "no valence is given",
-                    format!("-N with 3 to {MAX_VALENCE}"),
-                ));
-            }
+            (None, Some(valence)) => valences::of_scheme(valence)?,
+            (None, None) => return Err(valences::missing()),
         };
         let shape = if self.fan.is_some() {
             Shape::Fan {
@@ -119,52 +116,56 @@ impl CornerArgs {
         Ok((shape, self.cs))
     }
 
-    /// The valence alone, for what has no other corners.
+    /// The first of these options that was given, for what has closed fans only.
+    fn given(&self) -> Option<&'static str> {
+        let options = [
+            ("--fan", self.fan.is_some()),
+            ("--dart", self.dart),
+            ("--cusp", self.cusp),
+            ("--cs", self.cs.is_some()),
+            ("--knots", !self.knots.is_empty()),
+            ("--corner", self.corner),
+            ("--next", !self.next.is_empty()),
+        ];
+        options.iter().find(|(_, given)| *given).map(|(option, _)| *option)
+    }
+
+    /// Refuses all corners but closed fans; `with` says of what they have no meaning.
     ///
     /// # Errors
-    /// A valence that is missing, or another corner.
-    pub fn plain(&self) -> Result<usize, Error> {
-        match self.shape()? {
-            (Shape::Closed { sectors }, None) => Ok(sectors),
-            _ => {
-                let message = "--fan, --corner, --dart, --cusp, --cs and --knots say what a scheme sees";
-                Err(Error::usage(message, "-N alone here"))
-            }
+    /// The option that was given.
+    pub fn refuse(&self, with: &str) -> Result<(), Error> {
+        match self.given() {
+            Some(option) => Err(Error::usage(format!("{option} has no meaning {with}"), "-N alone here")),
+            None => Ok(()),
         }
     }
 }
 
-/// The output format.
-#[derive(Args, Clone, Copy, Debug)]
-pub struct Output {
-    /// How results are printed
-    #[arg(long, value_enum, default_value_t)]
-    format: FormatArg,
+/// Schemes as a list, or one by one.
+#[derive(Args, Clone, Debug)]
+pub struct Schemes {
+    /// Schemes, separated by commas, or --schemes for each; see 'eigenring --help'. A path with commas
+    /// stands in quotes: file:"a,b.toml"
+    #[arg(long = "schemes", value_name = "SPEC,SPEC,..")]
+    lists: Vec<SchemeList>,
 }
 
-/// See [`Format`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum FormatArg {
-    /// Columns for people; numbers to ten digits.
-    #[default]
-    Text,
-    /// One JSON value, full precision.
-    Json,
-    /// Comma-separated values with a header, full precision.
-    Csv,
-    /// A LaTeX tabular; numbers to ten digits.
-    Latex,
-}
-
-impl Output {
-    /// The format that was chosen.
-    pub fn format(&self) -> Format {
-        match self.format {
-            FormatArg::Text => Format::Text,
-            FormatArg::Json => Format::Json,
-            FormatArg::Csv => Format::Csv,
-            FormatArg::Latex => Format::Latex,
+impl Schemes {
+    /// All that were given, each once.
+    pub fn all(&self) -> Vec<SchemeName> {
+        let mut all: Vec<SchemeName> = Vec::new();
+        for scheme in self.lists.iter().flat_map(|list| &list.0) {
+            if !all.contains(scheme) {
+                all.push(scheme.clone());
+            }
         }
+        all
+    }
+
+    /// Whether any was given.
+    pub fn given(&self) -> bool {
+        !self.lists.is_empty()
     }
 }
 
@@ -176,33 +177,6 @@ pub fn tuner() -> Tuner<'static> {
     }
 }
 
-/// A list of valences: "5", "3..20" (both ends included), "3,5,8..10".
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Valences(pub Vec<usize>);
-
-impl FromStr for Valences {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let refuse = || format!("accepted are numbers from 3 to {MAX_VALENCE} and ranges, such as 3..20 or 3,5,8..10");
-        let mut valences = Vec::new();
-        for part in text.split(',') {
-            let number = |text: &str| text.trim().parse::<usize>().map_err(|_| refuse());
-            let range: RangeInclusive<usize> = match part.split_once("..") {
-                Some((first, last)) => number(first)?..=number(last.trim_start_matches('='))?,
-                None => number(part)?..=number(part)?,
-            };
-            if range.is_empty() || *range.start() < 3 || *range.end() > MAX_VALENCE {
-                return Err(refuse());
-            }
-            valences.extend(range);
-        }
-        valences.sort_unstable();
-        valences.dedup();
-        Ok(Valences(valences))
-    }
-}
-
 /// The constants of the objective.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct ObjectiveArgs {
@@ -210,10 +184,10 @@ pub struct ObjectiveArgs {
     #[arg(long)]
     pub unweighted: bool,
     /// Width of the weight's transition, relative to the ideal Gauss curvature
-    #[arg(long, default_value_t = 0.2, value_name = "X", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 0.2, value_name = "X", value_parser = number, allow_negative_numbers = true, conflicts_with = "unweighted")]
     pub epsilon: f64,
     /// Square root of the largest weight
-    #[arg(long, default_value_t = 5.0, value_name = "X", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 5.0, value_name = "X", value_parser = number, allow_negative_numbers = true, conflicts_with = "unweighted")]
     pub weight: f64,
     /// Gauss points per patch and direction
     #[arg(long, default_value_t = 5, value_name = "COUNT", value_parser = count, allow_negative_numbers = true)]
@@ -327,16 +301,5 @@ mod tests {
     #[test]
     fn the_default_margin_is_that_of_the_library() {
         assert_eq!(number(MARGIN), Ok(Options::default().margin));
-    }
-
-    #[test]
-    fn lists_of_valences() {
-        let list = |text: &str| text.parse::<Valences>().map(|v| v.0);
-        assert_eq!(list("5"), Ok(vec![5]));
-        assert_eq!(list("3..6"), Ok(vec![3, 4, 5, 6]));
-        assert_eq!(list("8..=9,3, 4,3"), Ok(vec![3, 4, 8, 9]));
-        for bad in ["", "2", "2..5", "6..3", "x", "3..", "1001", "3..99999999999999999999"] {
-            assert!(list(bad).is_err(), "{bad}");
-        }
     }
 }

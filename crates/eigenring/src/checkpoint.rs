@@ -5,9 +5,8 @@
 //! anew. Numbers are written so that they read back to the same bits, and samples do not depend on each
 //! other: a resumed sweep gives the same results.
 
-use crate::files;
-use eigenring_atlas::Error;
 use eigenring_atlas::run::{Kept, Parameters};
+use eigenring_atlas::{Error, files};
 use eigenring_tune::sweep::Sample;
 use std::collections::BTreeMap;
 use std::fs::File;

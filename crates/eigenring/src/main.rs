@@ -10,7 +10,10 @@ mod command_line;
 mod commands;
 mod error;
 mod files;
+mod output;
 mod progress;
+mod threads;
+mod valences;
 
 use clap::Parser;
 use error::Error;

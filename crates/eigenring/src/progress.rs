@@ -1,20 +1,60 @@
-//! Progress of long work: a bar on standard error, and only if that is a terminal.
+//! Progress of long work: bars on standard error, and only if that is a terminal.
+//!
+//! Nothing is shown of work that takes less than a second. Whatever a command does, a line with the time that
+//! has passed appears then ([`watch`]); bars of counted work stand below it.
 
 use eigenring_atlas::progress::{Progress, Task};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::LazyLock;
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::time::{Duration, Instant};
+
+/// How long work may take without a word.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// When the program was started, or near enough.
+static START: LazyLock<Instant> = LazyLock::new(Instant::now);
 
 /// All bars on the screen: work that is started within work has a line of its own. Hidden unless standard
 /// error is a terminal.
-static BARS: LazyLock<MultiProgress> = LazyLock::new(|| {
-    let target = if std::io::stderr().is_terminal() {
-        ProgressDrawTarget::stderr()
-    } else {
-        ProgressDrawTarget::hidden()
-    };
-    MultiProgress::with_draw_target(target)
-});
+static BARS: LazyLock<MultiProgress> = LazyLock::new(|| MultiProgress::with_draw_target(ProgressDrawTarget::hidden()));
+
+/// Shows what is going on as soon as it takes longer than a second, until it is dropped.
+pub struct Watch(Option<(Sender<()>, std::thread::JoinHandle<()>)>);
+
+/// Watches the whole command. Does nothing unless standard error is a terminal.
+pub fn watch() -> Watch {
+    LazyLock::force(&START);
+    if !std::io::stderr().is_terminal() {
+        return Watch(None);
+    }
+    let (sender, receiver) = channel::<()>();
+    let thread = std::thread::spawn(move || {
+        if receiver.recv_timeout(PATIENCE) != Err(RecvTimeoutError::Timeout) {
+            return;
+        }
+        BARS.set_draw_target(ProgressDrawTarget::stderr());
+        let style = ProgressStyle::with_template("{spinner} {msg}  {elapsed} elapsed");
+        let line = BARS.insert(0, ProgressBar::new_spinner().with_elapsed(START.elapsed()));
+        line.set_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
+        line.set_message("working");
+        line.enable_steady_tick(Duration::from_millis(200));
+        // until the command is done
+        let _ = receiver.recv();
+        line.finish_and_clear();
+    });
+    Watch(Some((sender, thread)))
+}
+
+impl Drop for Watch {
+    fn drop(&mut self) {
+        if let Some((sender, thread)) = self.0.take() {
+            drop(sender);
+            let _ = thread.join();
+        }
+    }
+}
 
 /// Bars and notes on standard error, for people; programs read standard output.
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +93,17 @@ pub fn bar(title: &str, length: usize) -> ProgressBar {
     bar.with_style(style).with_message(title.to_owned())
 }
 
+/// Does something with the bars off the screen.
+pub fn pause<T>(work: impl FnOnce() -> T) -> T {
+    BARS.suspend(work)
+}
+
+/// A line on standard error, above the bars.
+pub fn say(text: &str) {
+    pause(|| eprintln!("{text}"));
+}
+
 /// A remark on standard error, above the bars.
 pub fn note(text: &str) {
-    BARS.suspend(|| eprintln!("note: {text}"));
+    say(&format!("note: {text}"));
 }

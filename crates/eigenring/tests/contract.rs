@@ -330,6 +330,8 @@ fn help_has_examples_and_no_escape_sequences() {
         "curve",
         "verify",
         "reproduce",
+        "completions",
+        "plot",
     ] {
         assert!(top.contains(&format!("  {command} ")), "{command}");
         let help = place.ok(&[command, "--help"]);
@@ -345,6 +347,7 @@ fn help_has_examples_and_no_escape_sequences() {
                 || line.contains("reproduce")
                 || line.contains("--matrix")
                 || line.contains("--all")
+                || line.contains("--recheck")
             {
                 continue;
             }

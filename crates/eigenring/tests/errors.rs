@@ -213,7 +213,7 @@ fn the_command_line() {
     );
     let (message, _) = refused(&place, &["stencil", "-N", "6", "--lamda", "0.5"]);
     assert!(
-        message.contains("similar: '--lambda'") && message.contains("eigenring stencil --help"),
+        message.contains("did you mean '--lambda'?") && message.contains("eigenring stencil --help"),
         "{message}"
     );
     let (message, _) = refused(&place, &["stencil", "-N", "6", "--lambda", "0.5", "--format", "xml"]);

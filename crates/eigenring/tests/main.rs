@@ -5,6 +5,7 @@ mod common;
 mod contract;
 mod corners;
 mod curve;
+mod destinations;
 mod errors;
 mod on_demand;
 mod plot;

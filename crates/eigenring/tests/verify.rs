@@ -553,7 +553,7 @@ fn tables_in_every_format() {
 #[test]
 fn all_certificates_are_made_confirmed_and_drawn() {
     let place = Place::new();
-    place.ok(&["verify", "--all", "--valences", "4"]);
+    place.ok(&["verify", "--all", "--valences", "4", "--out", "results"]);
     let singles = csv_rows(&place.read("results/certificates/summary.csv"));
     // Catmull-Clark at 3 to 64, the lambda-scheme at A, M and C
     assert_eq!(singles.len(), 62 + 3);

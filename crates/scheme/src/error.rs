@@ -30,8 +30,9 @@ pub enum Error {
     /// The rule for s asks for a mu that is not below lambda: what is out of range is the valence, and not an
     /// s that was given.
     #[error(
-        "at N = {valence}, lambda = {lambda} the rule for s gives {s}, which is not below 1/lambda = {}: accepted is a smaller valence",
-        1.0 / lambda
+        "at N = {valence}, lambda = {lambda} the rule for s gives {s}, which is not below 1/lambda = {}{}: accepted is a smaller valence",
+        1.0 / lambda,
+        largest.map_or(String::new(), |largest| format!(", as it is up to N = {largest}"))
     )]
     RelaxationRule {
         /// The valence.
@@ -40,6 +41,8 @@ pub enum Error {
         lambda: f64,
         /// What the rule gives.
         s: f64,
+        /// The largest valence up to which the rule has a solution at this lambda, if there is one.
+        largest: Option<usize>,
     },
     /// The lambda-scheme is tabulated for the s of its rule only.
     #[error(

@@ -6,7 +6,7 @@
 
 use crate::families::{catmull_clark, doo_sabin, tension};
 use crate::lambda::{Member, Untabulated};
-use crate::{Error, Exact, Scalar, Scheme};
+use crate::{Error, Exact, Scalar, Scheme, did_you_mean};
 use std::fmt;
 use std::str::FromStr;
 
@@ -278,12 +278,25 @@ impl<'a> Parameters<'a> {
         index.map(|index| self.pairs.remove(index)).is_some()
     }
 
+    fn unknown(&self, name: &str) -> Error {
+        let similar = did_you_mean(name, names(self.usage));
+        self.refuse(format!("unknown parameter '{name}'{similar}"))
+    }
+
     fn finish(&self) -> Result<(), Error> {
         match self.pairs.first() {
             None => Ok(()),
-            Some((name, _)) => Err(self.refuse(format!("unknown parameter '{name}'"))),
+            Some((name, _)) => Err(self.unknown(name)),
         }
     }
+}
+
+/// The names of parameters in the usage of a family, `name:key=VALUE[,key=VALUE]`: runs of letters and digits
+/// before a `=`, and words that stand alone.
+fn names(usage: &str) -> impl Iterator<Item = &str> {
+    let parts = usage.split(|letter: char| !letter.is_ascii_alphanumeric() && letter != '-');
+    // values are written in capital letters
+    parts.filter(|part| part.starts_with(|letter: char| letter.is_ascii_lowercase()))
 }
 
 fn parse_lambda(parameters: &mut Parameters<'_>) -> Result<Spec, Error> {
@@ -316,13 +329,19 @@ impl FromStr for Spec {
         };
         let Some(family) = registry().iter().find(|family| family.name == name) else {
             let known: Vec<&str> = registry().iter().map(|family| family.usage).collect();
+            let similar = did_you_mean(name, registry().iter().map(|family| family.name));
             return Err(Error::Spec {
                 spec: text.to_owned(),
-                reason: "no such family".to_owned(),
+                reason: format!("no such family{similar}"),
                 accepted: known.join(" | "),
             });
         };
         let mut parameters = Parameters::new(text, family.usage, rest)?;
+        // a name that no form of the family knows, before the complaint that the right one is missing
+        let known = |name: &str| name.is_empty() || names(family.usage).any(|known| known == name);
+        if let Some(&(name, _)) = parameters.pairs.iter().find(|(name, _)| !known(name)) {
+            return Err(parameters.unknown(name));
+        }
         let spec = (family.parse)(&mut parameters)?;
         parameters.finish()?;
         Ok(spec)

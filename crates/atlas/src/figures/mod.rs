@@ -34,6 +34,7 @@ use crate::error::Error;
 use crate::schemes::{SchemeName, Tuner};
 use crate::table::Table;
 use eigenring_figure::{Figure, Width};
+use eigenring_scheme::did_you_mean;
 
 /// A picture with its data.
 #[derive(Debug)]
@@ -135,7 +136,10 @@ pub fn find(name: &str) -> Result<&'static Entry, Error> {
     FIGURES.iter().find(|entry| entry.name == name).ok_or_else(|| {
         let names: Vec<&str> = FIGURES.iter().map(|entry| entry.name).collect();
         Error::Usage {
-            message: format!("there is no figure {name:?}"),
+            message: format!(
+                "there is no figure {name:?}{}",
+                did_you_mean(name, names.iter().copied())
+            ),
             accepted: names.join(", "),
         }
     })

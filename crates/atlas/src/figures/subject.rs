@@ -21,6 +21,7 @@ pub struct Subject {
 
 impl Subject {
     fn new(argument: &SchemeName, valence: usize, tuner: &Tuner<'_>) -> Result<Self, Error> {
+        let scheme = argument.scheme(valence, tuner)?;
         let title = match argument {
             SchemeName::Spec(Spec::CatmullClark) => "Catmull-Clark".to_owned(),
             SchemeName::Spec(Spec::DooSabin) => "Doo-Sabin".to_owned(),
@@ -39,9 +40,8 @@ impl Subject {
                 };
                 format!("{symbol} = {}", four(lambda))
             }
-            SchemeName::File(path) => path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+            SchemeName::File(_) => scheme.name().to_owned(),
         };
-        let scheme = argument.scheme(valence, tuner)?;
         Ok(Subject {
             title,
             name: scheme.name().to_owned(),

@@ -185,6 +185,17 @@ impl Results {
         table
     }
 
+    /// What the gaps say, in sentences.
+    pub fn in_words(&self) -> String {
+        let count = self.all().count();
+        let exceptions = self.all().filter(|row| !row.holds()).count();
+        let valences = crate::results::ranges(self.parameters.valences.iter().copied());
+        format!(
+            "{count} local matrices at N = {valences}: 1 > |lambda_1| = |lambda_2| > |lambda_3| holds for {}, and exceptions.csv has the other {exceptions}.",
+            count - exceptions
+        )
+    }
+
     /// Every matrix for which 1 > |lambda_1| = |lambda_2| > |lambda_3| does not hold, and why.
     fn exceptions(&self) -> Table {
         let rows: Vec<Row> = self.all().filter(|row| !row.holds()).cloned().collect();

@@ -1,11 +1,12 @@
 //! `eigenring compare`: schemes side by side.
 
-use crate::args::{Output, Valences, tuner};
+use crate::args::{Schemes, tuner};
 use crate::error::Error;
-use crate::files;
+use crate::output::Output;
+use crate::threads::Threads;
+use crate::valences::{self, Valences};
 use clap::Args;
 use eigenring_atlas::compare::{compare, table};
-use eigenring_atlas::schemes::SchemeList;
 use std::process::ExitCode;
 
 /// Compare schemes over valences.
@@ -22,20 +23,37 @@ use std::process::ExitCode;
     after_help = "Example:\n  eigenring compare --schemes catmull-clark,lambda:optimal,tension:order=4,u0=2 --valences 3..12"
 )]
 pub struct Arguments {
-    /// Schemes, separated by commas; see 'eigenring --help'
-    #[arg(long, value_name = "SPEC,SPEC,...")]
-    schemes: SchemeList,
+    #[command(flatten)]
+    schemes: Schemes,
     /// Valences: numbers and ranges
-    #[arg(long, value_name = "LIST", default_value = "3..12", allow_hyphen_values = true)]
+    #[arg(
+        short = 'N',
+        long,
+        visible_alias = "valence",
+        value_name = "LIST",
+        default_value = "3..12",
+        value_parser = valences::list,
+        allow_hyphen_values = true
+    )]
     valences: Valences,
+    #[command(flatten)]
+    threads: Threads,
     #[command(flatten)]
     output: Output,
 }
 
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
-        let rows = compare(&self.schemes.0, &self.valences.0, &tuner())?;
-        files::emit(None, table(rows).render(self.output.format()).as_bytes())?;
+        let format = self.output.format()?;
+        self.threads.start()?;
+        if !self.schemes.given() {
+            return Err(Error::usage(
+                "no schemes are given",
+                "--schemes SPEC,SPEC,.., see 'eigenring --help'",
+            ));
+        }
+        let rows = compare(&self.schemes.all(), self.valences.closed()?, &tuner())?;
+        self.output.emit(&table(rows).render(format))?;
         Ok(ExitCode::SUCCESS)
     }
 }

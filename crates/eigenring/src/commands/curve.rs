@@ -1,9 +1,10 @@
 //! `eigenring curve`: refinement of control points, with the limit and a picture.
 
 use super::plot::Size;
-use crate::args::{self, Output};
+use crate::args;
 use crate::error::Error;
 use crate::files;
+use crate::output::{FormatArg, FormatOption, agreed};
 use crate::progress::note;
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
@@ -24,7 +25,7 @@ use std::process::ExitCode;
 /// first and the last control point.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  eigenring curve --example circle --count 4 --order 3    four points, an exact circle\n  eigenring curve --example fang-fig1 --levels 4 -o refined.csv --limit limit.csv --plot curve.svg\n  eigenring curve --example ellipse --levels 1 --format json\n  eigenring curve --example hyperbola --revolve --segments 6 --obj hyperboloid.obj --plot hyperboloid.png\nWith points of your own: eigenring curve points.csv --order 4 --u0 10 --closed --plot curve.png"
+    after_help = "Examples:\n  eigenring curve --example circle --count 4 --order 3    four points, an exact circle\n  eigenring curve --example fang-fig1 --levels 4 -o refined.csv --limit limit.csv --plot curve.svg\n  eigenring curve --example ellipse --levels 1 --format json\n  eigenring curve --example hyperbola --revolve --segments 6 --obj h.obj --plot h.png\nWith points of your own: eigenring curve points.csv --order 4 --u0 10 --closed --plot curve.png"
 )]
 pub struct Arguments {
     /// The control points
@@ -55,36 +56,38 @@ pub struct Arguments {
     /// Write the points of all levels, from the control points on
     #[arg(long)]
     all_levels: bool,
-    /// The file for the refined points, as CSV; standard output then has the summary only
+    /// The file for the refined points, in the format that its extension names (.csv, .json, .tex, .txt),
+    /// else CSV; standard output then has the summary only, in the format of --format
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Also write points of the limit, as CSV: parameter, x, y, z
     #[arg(long, value_name = "FILE", conflicts_with = "revolve")]
     limit: Option<PathBuf>,
-    /// Points of the limit per interval between knots
-    #[arg(long, value_name = "COUNT", default_value_t = 16, value_parser = args::count, allow_negative_numbers = true)]
-    samples: usize,
+    /// Points of the limit per interval between knots, for --limit, --plot and the distance of an --example;
+    /// by default 16
+    #[arg(long, value_name = "COUNT", value_parser = args::count, allow_negative_numbers = true)]
+    samples: Option<usize>,
     /// Draw control polygon, levels and limit: a file that ends with .svg or .png
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
-    /// Dots per inch of a PNG file, at the printed size
-    #[arg(long, value_name = "X", default_value = "300", value_parser = args::number, allow_negative_numbers = true)]
-    dpi: f64,
+    /// Dots per inch of a PNG file, at the printed size; by default 300
+    #[arg(long, value_name = "X", requires = "plot", value_parser = args::number, allow_negative_numbers = true)]
+    dpi: Option<f64>,
     /// Width of the picture: one printed column (85 mm) or two (178 mm)
-    #[arg(long, value_enum, default_value = "one")]
+    #[arg(long, value_enum, default_value = "one", requires = "plot")]
     size: Size,
     /// Turn the curve around the z axis; two coordinates are radius and height. Columns are level, u, v, x,
     /// y, z
     #[arg(long)]
     revolve: bool,
-    /// Control points around the axis, up to 64
-    #[arg(long, value_name = "COUNT", default_value_t = 4, value_parser = args::count, allow_negative_numbers = true)]
-    segments: usize,
+    /// With --revolve: control points around the axis, up to 64; by default 4
+    #[arg(long, value_name = "COUNT", value_parser = args::count, allow_negative_numbers = true)]
+    segments: Option<usize>,
     /// Write the refined grid as quadrilaterals in Wavefront OBJ
     #[arg(long, value_name = "FILE", requires = "revolve")]
     obj: Option<PathBuf>,
     #[command(flatten)]
-    output: Output,
+    format: FormatOption,
 }
 
 /// See [`Example`].
@@ -115,11 +118,32 @@ fn order(text: &str) -> Result<usize, String> {
     order.ok_or_else(|| format!("accepted are 3 to {MAX_ORDER}"))
 }
 
+/// Points of the limit per interval by default.
+const SAMPLES: usize = 16;
+
+/// Control points around the axis by default.
+const SEGMENTS: usize = 4;
+
 /// What the command puts out.
 struct Found {
     summary: Record,
     points: Table,
     files: Vec<(PathBuf, Vec<u8>)>,
+}
+
+impl Found {
+    /// Summary and points in a format; CSV and LaTeX have the points alone.
+    fn render(&self, format: Format) -> String {
+        match format {
+            Format::Text => format!("{}\n{}", self.summary.text(), self.points.render(format)),
+            Format::Json => {
+                let mut object = self.summary.json();
+                object.insert("points".to_owned(), self.points.json());
+                pretty(&Value::Object(object))
+            }
+            _ => self.points.render(format),
+        }
+    }
 }
 
 impl Arguments {
@@ -132,21 +156,16 @@ impl Arguments {
         };
         // files first: a failure leaves standard output empty
         for (path, contents) in &found.files {
-            files::write(path, contents)?;
+            files::save(path, contents)?;
         }
-        let format = self.output.format();
-        let printed = match (&self.out, format) {
-            (Some(path), _) => {
-                files::write(path, found.points.render(Format::Csv).as_bytes())?;
+        let format = self.format.format();
+        let printed = match &self.out {
+            Some(path) => {
+                let named = agreed(None, Some(path))?.unwrap_or(FormatArg::Csv);
+                files::save(path, found.render(named.into()).as_bytes())?;
                 found.summary.render(format)
             }
-            (None, Format::Text) => format!("{}\n{}", found.summary.text(), found.points.render(format)),
-            (None, Format::Json) => {
-                let mut object = found.summary.json();
-                object.insert("points".to_owned(), found.points.json());
-                pretty(&Value::Object(object))
-            }
-            (None, _) => found.points.render(format),
+            None => found.render(format),
         };
         files::emit(None, printed.as_bytes())?;
         Ok(ExitCode::SUCCESS)
@@ -164,10 +183,25 @@ impl Arguments {
                 ));
             }
         }
+        // the parser lets an option pass whose partner conflicts with another one
+        if self.segments.is_some() && !self.revolve {
+            return Err(Error::usage(
+                "--segments has no meaning for a curve",
+                "--segments with --revolve",
+            ));
+        }
+        if self.samples.is_some() && self.limit.is_none() && self.plot.is_none() && self.example.is_none() {
+            let message = "--samples has no meaning where no points of the limit are shown";
+            return Err(Error::usage(message, "--samples with --limit, --plot or --example"));
+        }
         match &self.plot {
             Some(path) if !is(path, "svg") && !is(path, "png") => Err(Error::usage(
                 format!("picture {}", path.display()),
                 "a name that ends with .svg or .png",
+            )),
+            Some(path) if !is(path, "png") && self.dpi.is_some() => Err(Error::usage(
+                "--dpi has no meaning for SVG",
+                "--dpi with a picture that ends with .png",
             )),
             _ => Ok(()),
         }
@@ -213,14 +247,14 @@ impl Arguments {
     fn note_deviation(&self, deviation: Option<f64>) {
         if let Some(deviation) = deviation
             && self.out.is_none()
-            && matches!(self.output.format(), Format::Csv | Format::Latex)
+            && matches!(self.format.format(), Format::Csv | Format::Latex)
         {
             note(&format!("the limit is within {deviation:.2e} of the exact one"));
         }
     }
 
     fn refined(&self, curve: &Curve, exact: Option<&Exact>) -> Result<Found, Error> {
-        let refined = refine(curve, exact, self.levels, self.samples)?;
+        let refined = refine(curve, exact, self.levels, self.samples.unwrap_or(SAMPLES))?;
         self.note_deviation(refined.deviation);
         let mut files = Vec::new();
         if let Some(path) = &self.limit {
@@ -237,7 +271,13 @@ impl Arguments {
     }
 
     fn surface(&self, curve: &Curve, exact: Option<&Exact>) -> Result<Found, Error> {
-        let revolved = revolve(curve, exact, self.segments, self.levels, self.samples)?;
+        let revolved = revolve(
+            curve,
+            exact,
+            self.segments.unwrap_or(SEGMENTS),
+            self.levels,
+            self.samples.unwrap_or(SAMPLES),
+        )?;
         self.note_deviation(revolved.deviation);
         let mut files = Vec::new();
         if let Some(path) = &self.obj {
@@ -262,7 +302,7 @@ impl Arguments {
 
     fn picture(&self, path: &Path, figure: &Figure) -> Result<Vec<u8>, Error> {
         Ok(match is(path, "png") {
-            true => figure.png(self.dpi)?,
+            true => figure.png(self.dpi.unwrap_or(super::plot::DPI))?,
             false => figure.svg()?.into_bytes(),
         })
     }

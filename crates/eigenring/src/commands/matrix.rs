@@ -3,6 +3,9 @@
 use crate::args::{self, CornerArgs};
 use crate::error::Error;
 use crate::files;
+use crate::output::{Extension, agreed};
+use crate::threads::Threads;
+use crate::valences::OptionalValence;
 use clap::{Args, ValueEnum};
 use eigenring_atlas::matrix::LocalMatrix;
 use eigenring_atlas::schemes::SchemeName;
@@ -18,12 +21,14 @@ use std::process::ExitCode;
 /// --numbering.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  eigenring matrix --scheme catmull-clark -N 5 --rings 2 --format csv -o S.csv --numbering points.csv\n  eigenring matrix --scheme tension:order=6 -N 3 --format json"
+    after_help = "Examples:\n  eigenring matrix --scheme catmull-clark -N 5 --rings 2 -o S.csv --numbering points.csv\n  eigenring matrix --scheme tension:order=6 -N 3 --format json"
 )]
 pub struct Arguments {
     /// The scheme: see 'eigenring --help'
     #[arg(long, value_name = "SPEC")]
     scheme: SchemeName,
+    #[command(flatten)]
+    valence: OptionalValence,
     #[command(flatten)]
     corner: CornerArgs,
     /// Rings of control points; by default as many as 'eigenring spectrum' takes, mostly the smallest closed
@@ -33,15 +38,18 @@ pub struct Arguments {
     /// Level of refinement, 0 for the first; by default the limit level
     #[arg(long, value_name = "LEVEL", value_parser = args::count, allow_negative_numbers = true)]
     level: Option<usize>,
-    /// Matrix Market, NumPy, comma-separated values, or JSON
-    #[arg(long, value_enum, default_value_t)]
-    format: MatrixFormat,
-    /// The file to write; standard output by default
+    /// Matrix Market (the default), NumPy, comma-separated values, or JSON
+    #[arg(long, value_enum)]
+    format: Option<MatrixFormat>,
+    /// The file to write, in the format that its extension names (.mtx, .npy, .csv, .json); standard output
+    /// by default
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Also write the points in order, as CSV: index, sector, a, b
     #[arg(long, value_name = "FILE")]
     numbering: Option<PathBuf>,
+    #[command(flatten)]
+    threads: Threads,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -53,20 +61,33 @@ enum MatrixFormat {
     Json,
 }
 
+impl Extension for MatrixFormat {
+    fn extensions(self) -> &'static [&'static str] {
+        match self {
+            MatrixFormat::Mtx => &["mtx"],
+            MatrixFormat::Npy => &["npy"],
+            MatrixFormat::Csv => &["csv"],
+            MatrixFormat::Json => &["json"],
+        }
+    }
+}
+
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
-        let (shape, steps) = self.corner.shape()?;
+        self.threads.start()?;
+        let (shape, steps) = self.corner.shape(self.valence.valence)?;
         let corner = shape.corner(self.scheme.centre()?, steps)?;
         let scheme = self.scheme.around(&corner, &args::tuner())?;
+        let format = agreed(self.format, self.out.as_deref())?.unwrap_or_default();
         let matrix = LocalMatrix::new(&scheme, self.rings, self.level)?;
-        let bytes = match self.format {
+        let bytes = match format {
             MatrixFormat::Mtx => matrix.matrix_market().into_bytes(),
             MatrixFormat::Npy => matrix.npy(),
             MatrixFormat::Csv => matrix.csv().into_bytes(),
             MatrixFormat::Json => pretty(&matrix.json()).into_bytes(),
         };
         if let Some(path) = &self.numbering {
-            files::write(path, matrix.points().render(Format::Csv).as_bytes())?;
+            files::save(path, matrix.points().render(Format::Csv).as_bytes())?;
         }
         files::emit(self.out.as_deref(), &bytes)?;
         Ok(ExitCode::SUCCESS)

@@ -1,6 +1,7 @@
 //! The subcommands, one module each.
 
 mod compare;
+mod completions;
 mod curve;
 mod matrix;
 mod objective;
@@ -13,8 +14,15 @@ mod tune;
 mod verify;
 
 use crate::error::Error;
+use crate::progress::watch;
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
+
+/// Where files go that are no part of the stored results, by default.
+const UNSTORED: &str = "eigenring-out";
+
+/// Where the stored results are.
+const RESULTS: &str = "results";
 
 /// Design, analyse and tabulate subdivision schemes around extraordinary vertices.
 #[derive(Parser, Debug)]
@@ -41,11 +49,13 @@ enum Command {
     Curve(curve::Arguments),
     Plot(plot::Arguments),
     Reproduce(reproduce::Arguments),
+    Completions(completions::Arguments),
 }
 
 impl Cli {
     /// Runs the chosen command.
     pub fn run(self) -> Result<ExitCode, Error> {
+        let _watch = watch();
         match self.command {
             Command::Tables(arguments) => arguments.run(),
             Command::Stencil(arguments) => arguments.run(),
@@ -58,6 +68,7 @@ impl Cli {
             Command::Curve(arguments) => arguments.run(),
             Command::Plot(arguments) => arguments.run(),
             Command::Reproduce(arguments) => arguments.run(),
+            Command::Completions(arguments) => arguments.run(),
         }
     }
 }

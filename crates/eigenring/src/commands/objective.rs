@@ -1,8 +1,9 @@
 //! `eigenring objective`: the tuning objective at one stencil.
 
-use crate::args::{self, ObjectiveArgs, Output};
+use crate::args::{self, ObjectiveArgs};
 use crate::error::Error;
-use crate::files;
+use crate::output::Output;
+use crate::valences::Valence;
 use clap::Args;
 use eigenring_atlas::schemes::feasible;
 use eigenring_atlas::stencil::objective;
@@ -17,9 +18,8 @@ use std::process::ExitCode;
 #[derive(Args, Debug)]
 #[command(after_help = "Example:\n  eigenring objective -N 6 --lambda 0.55 --f2 0.25 --f3 0.2")]
 pub struct Arguments {
-    /// Valence
-    #[arg(short = 'N', long, value_name = "N", value_parser = args::valence, allow_negative_numbers = true)]
-    valence: usize,
+    #[command(flatten)]
+    valence: Valence,
     /// Subdominant eigenvalue, 1/8 < lambda < 1
     #[arg(long, value_name = "L", value_parser = args::number, allow_negative_numbers = true)]
     lambda: f64,
@@ -40,10 +40,11 @@ pub struct Arguments {
 
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
+        let format = self.output.format()?;
         let weights = [self.f2, self.f3];
-        let member = feasible(self.valence, self.lambda, self.s, self.objective.phi, weights)?;
+        let member = feasible(self.valence.valence, self.lambda, self.s, self.objective.phi, weights)?;
         let (head, table) = objective(&member, self.objective.settings())?;
-        let text = match self.output.format() {
+        let text = match format {
             Format::Json => {
                 let mut object = head.json();
                 object.insert("parts".to_owned(), table.json());
@@ -52,7 +53,7 @@ impl Arguments {
             Format::Text => format!("{}\n{}", head.text(), table.render(Format::Text)),
             format => table.render(format),
         };
-        files::emit(None, text.as_bytes())?;
+        self.output.emit(&text)?;
         Ok(ExitCode::SUCCESS)
     }
 }

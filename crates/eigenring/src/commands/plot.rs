@@ -1,14 +1,17 @@
 //! `eigenring plot`: figures with their data.
 
-use crate::args::{self, Valences};
+use super::{RESULTS, UNSTORED};
+use crate::args::{self, Schemes};
 use crate::error::Error;
-use crate::files;
+use crate::files::{self, Written};
 use crate::progress::{Terminal, note};
+use crate::threads::Threads;
+use crate::valences::{self, Valences};
 use clap::{Args, ValueEnum};
 use eigenring_atlas::figures::{self, Drawing, Entry, FIGURES, Inputs, Studies};
 use eigenring_atlas::progress::{Silent, each};
 use eigenring_atlas::results::{EVERYTHING, FOLDER};
-use eigenring_atlas::schemes::{SchemeList, SchemeName, Tuner};
+use eigenring_atlas::schemes::{SchemeName, Tuner};
 use eigenring_atlas::table::Format;
 use eigenring_figure::Width;
 use eigenring_scheme::Spec;
@@ -32,11 +35,12 @@ pub struct Arguments {
     #[arg(long, conflicts_with = "figures")]
     all: bool,
     /// List the figures and draw nothing
-    #[arg(long, conflicts_with_all = ["figures", "all"])]
+    #[arg(long, exclusive = true)]
     list: bool,
-    /// Output folder
-    #[arg(long, value_name = "FOLDER", default_value = "results/figures")]
-    out: PathBuf,
+    /// Output folder; by default results/figures for --all as it is, and eigenring-out/figures for a choice
+    /// of figures, or with any option that changes them
+    #[arg(long, value_name = "FOLDER")]
+    out: Option<PathBuf>,
     /// Formats of the pictures
     #[arg(
         long,
@@ -46,31 +50,42 @@ pub struct Arguments {
         default_value = "svg,png"
     )]
     format: Vec<PictureFormat>,
-    /// Dots per inch of PNG files, at the printed size
-    #[arg(long, value_name = "X", default_value = "300", value_parser = args::number, allow_negative_numbers = true)]
-    dpi: f64,
+    /// Dots per inch of PNG files, at the printed size; by default 300
+    #[arg(long, value_name = "X", value_parser = args::number, allow_negative_numbers = true)]
+    dpi: Option<f64>,
     /// Width: one printed column (85 mm) or two (178 mm); by default each figure's own
     #[arg(long, value_enum)]
     size: Option<Size>,
     /// Valences: numbers and ranges; by default each figure's own
-    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    #[arg(
+        short = 'N',
+        long,
+        visible_alias = "valence",
+        value_name = "LIST",
+        value_parser = valences::list,
+        allow_hyphen_values = true
+    )]
     valences: Option<Valences>,
     /// Lambdas, separated by commas; by default each figure's own
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = args::number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = args::number, allow_negative_numbers = true, conflicts_with = "lists")]
     lambda: Vec<f64>,
     /// The range of lambda that is shown, by default 0.15..0.9
     #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
     range: Option<Interval>,
-    /// Schemes, separated by commas, for figures of maps; see 'eigenring --help'
-    #[arg(long, value_name = "SPEC,SPEC,...", conflicts_with = "lambda")]
-    schemes: Option<SchemeList>,
+    #[command(flatten)]
+    schemes: Schemes,
     /// The range of values that colours show; by default each figure's own
     #[arg(long, value_name = "A..B", value_parser = colours, allow_hyphen_values = true)]
     colours: Option<(f64, f64)>,
     /// The folder with stored results; by default results, if it is there
     #[arg(long, value_name = "FOLDER")]
     results: Option<PathBuf>,
+    #[command(flatten)]
+    threads: Threads,
 }
+
+/// Dots per inch by default.
+pub const DPI: f64 = 300.0;
 
 /// What is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -124,9 +139,6 @@ impl FromStr for Interval {
 /// The lambdas of the tables.
 const TABULATED: (f64, f64) = (0.15, 0.9);
 
-/// Where results are by default.
-const RESULTS: &str = "results";
-
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         if self.list {
@@ -135,23 +147,37 @@ impl Arguments {
         }
         let entries = self.entries()?;
         self.check(&entries)?;
-        files::check_writable(&self.out)?;
+        self.threads.start()?;
+        let out = self.out();
+        files::check_writable(self.out.as_deref().unwrap_or(Path::new(UNSTORED)), &out)?;
         let studies = self.studies(&entries)?;
         let tuner = args::tuner();
         let drawn = each(&Terminal, "figures", &entries, |entry| {
             self.draw(entry, &studies, &tuner)
         })?;
-        let mut names = String::new();
+        let mut written = Written::default();
         for (name, contents) in drawn.into_iter().flatten() {
-            let path = self.out.join(name);
-            files::write(&path, &contents)?;
-            names.push_str(&format!("{}\n", path.display()));
+            written.write(out.join(name), &contents)?;
         }
         if let Some(remark) = &studies.remark {
             note(remark);
         }
-        files::emit(None, names.as_bytes())?;
+        files::emit(None, written.list().as_bytes())?;
         Ok(ExitCode::SUCCESS)
+    }
+
+    /// Where the files go: what is stored in `results` is all figures as they are by default, and nothing
+    /// else takes its place unless that folder is named.
+    fn out(&self) -> PathBuf {
+        let stored = self.all
+            && self.valences.is_none()
+            && self.lambda.is_empty()
+            && self.range.is_none()
+            && !self.schemes.given()
+            && self.colours.is_none()
+            && self.size.is_none();
+        let default = if stored { RESULTS } else { UNSTORED };
+        self.out.clone().unwrap_or_else(|| Path::new(default).join("figures"))
     }
 
     /// The figures asked for, each once.
@@ -176,6 +202,23 @@ impl Arguments {
 
     /// Refuses what the figures do not take; with --all, options go to those that take them.
     fn check(&self, entries: &[&Entry]) -> Result<(), Error> {
+        if let Some(valences) = &self.valences {
+            valences.closed()?;
+        }
+        if self.dpi.is_some() && !self.format.contains(&PictureFormat::Png) {
+            return Err(Error::usage("--dpi has no meaning without PNG files", "--format png"));
+        }
+        if self.results.is_some() && !entries.iter().any(|entry| entry.studies) {
+            let names: Vec<&str> = FIGURES
+                .iter()
+                .filter(|entry| entry.studies)
+                .map(|entry| entry.name)
+                .collect();
+            return Err(Error::usage(
+                "none of these figures reads stored results",
+                format!("--results for {}", names.join(", ")),
+            ));
+        }
         for &lambda in &self.lambda {
             if !(LAMBDAS.0 < lambda && lambda < LAMBDAS.1) {
                 return Err(Error::range("lambda", lambda, "0.125 < lambda < 1"));
@@ -201,7 +244,7 @@ impl Arguments {
             if !self.lambda.is_empty() && !takes_lambda(entry) {
                 return refuse("--lambda", takes_lambda);
             }
-            if self.schemes.is_some() && entry.schemes.is_none() {
+            if self.schemes.given() && entry.schemes.is_none() {
                 return refuse("--schemes", |entry| entry.schemes.is_some());
             }
             if self.colours.is_some() && entry.colours.is_none() {
@@ -211,10 +254,10 @@ impl Arguments {
         Ok(())
     }
 
-    fn valences<'a>(&'a self, entry: &'a Entry) -> &'a [usize] {
+    fn valences<'a>(&'a self, entry: &'a Entry) -> Result<&'a [usize], Error> {
         match &self.valences {
-            Some(Valences(valences)) if !entry.valences.is_empty() => valences,
-            _ => entry.valences,
+            Some(valences) if !entry.valences.is_empty() => valences.closed(),
+            _ => Ok(entry.valences),
         }
     }
 
@@ -230,16 +273,20 @@ impl Arguments {
                 weights: None,
             })
         };
-        match &self.schemes {
-            Some(SchemeList(schemes)) => Ok(schemes.iter().map(|(_, scheme)| scheme.clone()).collect()),
-            None if !self.lambda.is_empty() => Ok(self.lambda.iter().map(member).collect()),
-            None => Ok(entry.default_schemes()?),
+        if self.schemes.given() {
+            return Ok(self.schemes.all());
+        }
+        match self.lambda.as_slice() {
+            [] => Ok(entry.default_schemes()?),
+            lambdas => Ok(lambdas.iter().map(member).collect()),
         }
     }
 
     fn studies(&self, entries: &[&Entry]) -> Result<Studies, Error> {
-        let needed = entries.iter().filter(|entry| entry.studies);
-        let needed: Vec<usize> = needed.flat_map(|entry| self.valences(entry)).copied().collect();
+        let mut needed: Vec<usize> = Vec::new();
+        for entry in entries.iter().filter(|entry| entry.studies) {
+            needed.extend(self.valences(entry)?);
+        }
         let default = Path::new(RESULTS);
         let folder = match &self.results {
             Some(folder) => Some(folder.as_path()),
@@ -254,7 +301,7 @@ impl Arguments {
         let inputs = Inputs {
             schemes: &schemes,
             colours: entry.colours.map(|default| self.colours.unwrap_or(default)),
-            valences: self.valences(entry),
+            valences: self.valences(entry)?,
             lambdas: match entry.lambdas {
                 [] => &[],
                 defaults if self.lambda.is_empty() => defaults,
@@ -281,7 +328,7 @@ impl Arguments {
             files.push((format!("{stem}.svg"), figure.svg()?.into_bytes()));
         }
         if self.format.contains(&PictureFormat::Png) {
-            files.push((format!("{stem}.png"), figure.png(self.dpi)?));
+            files.push((format!("{stem}.png"), figure.png(self.dpi.unwrap_or(DPI))?));
         }
         for (suffix, table) in data {
             let name = match *suffix {

@@ -6,6 +6,7 @@ use crate::command_line::explain;
 use crate::error::Error;
 use crate::files;
 use crate::progress::bar;
+use crate::threads::Threads;
 use clap::{Args, Parser};
 use eigenring_atlas::difference::{Report, compare_files};
 use eigenring_atlas::index::{Entry, Index};
@@ -33,11 +34,13 @@ pub struct Arguments {
     #[arg(long, value_name = "FOLDER", default_value = "results")]
     out: PathBuf,
     /// Absolute tolerance of a number
-    #[arg(long, value_name = "X", default_value = "1e-9", value_parser = args::number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "X", default_value = "1e-9", requires = "check", value_parser = args::number, allow_negative_numbers = true)]
     atol: f64,
     /// Relative tolerance of a number
-    #[arg(long, value_name = "X", default_value = "1e-6", value_parser = args::number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "X", default_value = "1e-6", requires = "check", value_parser = args::number, allow_negative_numbers = true)]
     rtol: f64,
+    #[command(flatten)]
+    threads: Threads,
 }
 
 impl Arguments {
@@ -56,7 +59,7 @@ impl Arguments {
             let report = match (self.check, self.only.is_some()) {
                 (true, named) => self.check(entry, named)?,
                 (false, _) => {
-                    make(entry, &self.out)?;
+                    make(entry, &self.out, self.threads)?;
                     Report {
                         same: true,
                         text: format!("rebuilt    {}: {}\n", entry.name, entry.command),
@@ -64,7 +67,7 @@ impl Arguments {
                 }
             };
             same &= report.same;
-            progress.suspend(|| files::emit(None, report.text.as_bytes()))?;
+            files::emit(None, report.text.as_bytes())?;
             progress.inc(1);
         }
         progress.finish_and_clear();
@@ -77,7 +80,7 @@ impl Arguments {
         for path in &entry.files {
             present(path)?;
         }
-        if !named && let Some((holds, text)) = recheck(entry, &self.out)? {
+        if !named && let Some((holds, text)) = recheck(entry, &self.out, self.threads)? {
             let verdict = if holds { "holds" } else { "REFUTED" };
             let mut report = format!("{verdict:9}  {}\n", entry.name);
             if !holds {
@@ -92,7 +95,7 @@ impl Arguments {
             path: std::env::temp_dir(),
             source,
         })?;
-        make(entry, folder.path())?;
+        make(entry, folder.path(), self.threads)?;
         let made = if entry.files.is_empty() {
             files::below(folder.path())?
         } else {
@@ -121,9 +124,9 @@ fn accept(words: &[String]) -> Result<(), String> {
 }
 
 /// Makes the files of an entry below a folder.
-fn make(entry: &Entry, out: &Path) -> Result<(), Error> {
+fn make(entry: &Entry, out: &Path, threads: Threads) -> Result<(), Error> {
     let words = entry.making(out);
-    let output = run(&words)?;
+    let output = run(&words, threads)?;
     if output.status.success() {
         return Ok(());
     }
@@ -136,11 +139,11 @@ fn make(entry: &Entry, out: &Path) -> Result<(), Error> {
 
 /// Runs the command that re-checks the files of an entry, if there is one: whether it succeeds, and what it
 /// prints.
-fn recheck(entry: &Entry, out: &Path) -> Result<Option<(bool, String)>, Error> {
+fn recheck(entry: &Entry, out: &Path, threads: Threads) -> Result<Option<(bool, String)>, Error> {
     let Some(words) = entry.checking(out) else {
         return Ok(None);
     };
-    let output = run(&words)?;
+    let output = run(&words, threads)?;
     let text = if output.status.success() {
         output.stdout
     } else {
@@ -153,9 +156,13 @@ fn recheck(entry: &Entry, out: &Path) -> Result<Option<(bool, String)>, Error> {
 }
 
 /// Runs this program with other arguments. Its bar, if it draws one, is not shown: the caller counts entries.
-fn run(words: &[String]) -> Result<Output, Error> {
+fn run(words: &[String], threads: Threads) -> Result<Output, Error> {
     let program = std::env::current_exe().map_err(Error::Start)?;
-    Command::new(program)
+    let mut command = Command::new(program);
+    if let Some(count) = threads.given() {
+        command.env("RAYON_NUM_THREADS", count.to_string());
+    }
+    command
         .args(&words[1..])
         .stdin(Stdio::null())
         .output()

@@ -1,9 +1,12 @@
 //! `eigenring spectrum`: eigenvalues, Fourier indices and limit stencils of any scheme or matrix.
 
-use crate::args::{self, CornerArgs, Output};
+use crate::args::{self, CornerArgs};
 use crate::error::Error;
 use crate::files;
+use crate::output::Output;
 use crate::progress::note;
+use crate::threads::Threads;
+use crate::valences::{self, OptionalValence};
 use clap::{ArgGroup, Args};
 use eigenring_atlas::schemes::SchemeName;
 use eigenring_atlas::spectrum::{Analysis, parse_matrix};
@@ -31,6 +34,8 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE", group = "source")]
     matrix: Option<PathBuf>,
     #[command(flatten)]
+    valence: OptionalValence,
+    #[command(flatten)]
     corner: CornerArgs,
     /// Rings of control points
     #[arg(long, value_name = "R", value_parser = args::count, allow_negative_numbers = true, conflicts_with = "matrix")]
@@ -39,26 +44,34 @@ pub struct Arguments {
     #[arg(long, value_name = "LEVEL", value_parser = args::count, allow_negative_numbers = true, conflicts_with = "matrix")]
     level: Option<usize>,
     #[command(flatten)]
+    threads: Threads,
+    #[command(flatten)]
     output: Output,
 }
 
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
+        let format = self.output.format()?;
+        self.threads.start()?;
         let analysis = match (&self.scheme, &self.matrix) {
             (Some(scheme), _) => {
-                let (shape, steps) = self.corner.shape()?;
+                let (shape, steps) = self.corner.shape(self.valence.valence)?;
                 let corner = shape.corner(scheme.centre()?, steps)?;
                 let found = scheme.around(&corner, &args::tuner())?;
                 Analysis::of_corner(&found, &corner, self.rings, self.level)?
             }
-            (None, Some(path)) => analyse_file(path, self.corner.plain()?)?,
+            (None, Some(path)) => {
+                self.corner.refuse("for a matrix")?;
+                let valence = self.valence.valence.ok_or_else(valences::missing)?;
+                analyse_file(path, valence)?
+            }
             // the parser demands one of them
             (None, None) => return Ok(ExitCode::from(2)),
         };
         if let Some(warning) = analysis.warning() {
             note(&warning);
         }
-        let text = match self.output.format() {
+        let text = match format {
             Format::Json => pretty(&Value::Object(analysis.json())),
             Format::Text => analysis.text(),
             format => {
@@ -66,7 +79,7 @@ impl Arguments {
                 analysis.eigenvalues().render(format)
             }
         };
-        files::emit(None, text.as_bytes())?;
+        self.output.emit(&text)?;
         Ok(ExitCode::SUCCESS)
     }
 }

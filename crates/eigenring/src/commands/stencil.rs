@@ -1,8 +1,9 @@
 //! `eigenring stencil`: all weights at one valence and lambda.
 
-use crate::args::{self, Output};
+use crate::args;
 use crate::error::Error;
-use crate::files;
+use crate::output::Output;
+use crate::valences::Valence;
 use clap::Args;
 use eigenring_atlas::schemes::feasible;
 use eigenring_atlas::stencil::weights;
@@ -18,9 +19,8 @@ use std::process::ExitCode;
     after_help = "Examples:\n  eigenring stencil -N 6 --lambda 0.55\n  eigenring stencil -N 6 --lambda 0.55 --f2 0.25 --f3 0.2 --format json"
 )]
 pub struct Arguments {
-    /// Valence
-    #[arg(short = 'N', long, value_name = "N", value_parser = args::valence, allow_negative_numbers = true)]
-    valence: usize,
+    #[command(flatten)]
+    valence: Valence,
     /// Subdominant eigenvalue, 1/8 < lambda < 1
     #[arg(long, value_name = "L", value_parser = args::number, allow_negative_numbers = true)]
     lambda: f64,
@@ -39,11 +39,12 @@ pub struct Arguments {
 
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
+        let format = self.output.format()?;
         let member = match (self.f2, self.f3) {
-            (Some(f2), Some(f3)) => feasible(self.valence, self.lambda, self.s, 6.0, [f2, f3])?,
-            _ => args::tuner().at(self.valence, self.lambda, self.s)?,
+            (Some(f2), Some(f3)) => feasible(self.valence.valence, self.lambda, self.s, 6.0, [f2, f3])?,
+            _ => args::tuner().at(self.valence.valence, self.lambda, self.s)?,
         };
-        files::emit(None, weights(&member).render(self.output.format()).as_bytes())?;
+        self.output.emit(&weights(&member).render(format))?;
         Ok(ExitCode::SUCCESS)
     }
 }

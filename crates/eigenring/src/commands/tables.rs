@@ -1,14 +1,18 @@
 //! `eigenring tables`: the main job.
 
-use crate::args::{Output, TuningArgs, Valences};
+use super::{RESULTS, UNSTORED};
+use crate::args::TuningArgs;
 use crate::checkpoint::Checkpoints;
 use crate::error::Error;
-use crate::files;
-use crate::progress::Terminal;
+use crate::files::{self, Written};
+use crate::output::FormatOption;
+use crate::progress::{Terminal, say};
+use crate::threads::Threads;
+use crate::valences::{self, Valences};
 use clap::{Args, ValueEnum};
 use eigenring_atlas::results::{self, FOLDER, Results, summary};
 use eigenring_atlas::run::{Parameters, check, studies};
-use eigenring_atlas::table::Format;
+use eigenring_atlas::table::{Format, Table};
 use eigenring_atlas::tension;
 use eigenring_tune::study::Knots;
 use eigenring_tune::sweep::{Options, Range};
@@ -27,31 +31,38 @@ use std::process::ExitCode;
 /// 2 and characteristic meshes. Knots, tuning and --embed belong to the lambda-scheme alone.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  eigenring tables                         all of results/lambda, valences 3 to 20\n  eigenring tables --valences 5,6 --out /tmp/try\n  eigenring tables --starts full --format latex\n  eigenring tables --scheme tension        all of results/tension"
+    after_help = "Examples:\n  eigenring tables                         all of results/lambda, valences 3 to 20\n  eigenring tables --valences 5,6          two valences, below eigenring-out\n  eigenring tables --starts full --format latex\n  eigenring tables --scheme tension        all of results/tension"
 )]
 pub struct Arguments {
     /// Whose tables
     #[arg(long, value_enum, default_value_t)]
     scheme: Tabulated,
-    /// Valences: numbers and ranges, such as 3..20 or 3,5,8..10
-    #[arg(long, value_name = "LIST", default_value = "3..20", allow_hyphen_values = true)]
-    valences: Valences,
-    /// Output folder; files go to its subfolder lambda or tension
-    #[arg(long, value_name = "FOLDER", default_value = "results")]
-    out: PathBuf,
+    /// Valences: numbers and ranges, such as 3..20 or 3,5,8..10; by default 3..20
+    #[arg(
+        short = 'N',
+        long,
+        visible_alias = "valence",
+        value_name = "LIST",
+        value_parser = valences::list,
+        allow_hyphen_values = true
+    )]
+    valences: Option<Valences>,
+    /// Output folder; files go to its subfolder lambda or tension. By default results, or eigenring-out with
+    /// --valences or any option that changes the numbers
+    #[arg(long, value_name = "FOLDER")]
+    out: Option<PathBuf>,
     /// Triple knots: detected from the samples, or those of the paper's Table 1
     #[arg(long, value_enum, default_value_t)]
     knots: KnotsArg,
-    /// Also write the table that is compiled into the library
-    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "crates/scheme/data/lambda.json")]
-    embed: Option<PathBuf>,
-    /// Threads; by default one for each core. Results do not depend on it
-    #[arg(long, value_name = "COUNT", value_parser = threads, allow_negative_numbers = true)]
-    threads: Option<u16>,
+    /// Also write the table that is compiled into the library; by default where it is compiled from
+    #[arg(long, value_name = "FILE", num_args = 0..=1)]
+    embed: Option<Option<PathBuf>>,
+    #[command(flatten)]
+    threads: Threads,
     #[command(flatten)]
     tuning: TuningArgs,
     #[command(flatten)]
-    output: Output,
+    format: FormatOption,
 }
 
 /// The families with tables.
@@ -74,13 +85,16 @@ pub enum KnotsArg {
     Paper,
 }
 
-fn threads(text: &str) -> Result<u16, String> {
-    let count = text.parse().ok().filter(|count| (1..=1024).contains(count));
-    count.ok_or_else(|| "accepted is 1 to 1024".to_owned())
-}
-
 /// Unfinished samples, below the results' folder.
 const RESUME: &str = ".resume";
+
+/// Where `--embed` writes by default: the table of all valences, as the library carries it.
+const EMBEDDED: &str = "crates/scheme/data/lambda.json";
+
+/// The valences that are tabulated by default.
+fn usual_valences() -> Vec<usize> {
+    (3..=20).collect()
+}
 
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
@@ -89,54 +103,61 @@ impl Arguments {
             KnotsArg::Detected => Knots::Detected,
             KnotsArg::Paper => Knots::Paper,
         };
-        let parameters = Parameters::new(self.valences.0, knots, &options, &Range::default());
+        let valences = match &self.valences {
+            Some(valences) => valences.closed()?.to_vec(),
+            None => usual_valences(),
+        };
+        let parameters = Parameters::new(valences.clone(), knots, &options, &Range::default());
+        let usual = Parameters::new(valences, Knots::Detected, &Options::default(), &Range::default());
+        // what is stored has the default parameters, and nothing else takes its place unasked
+        let stored = self.valences.is_none() && parameters == usual;
+        let default = if stored { RESULTS } else { UNSTORED };
+        let out = self.out.clone().unwrap_or_else(|| default.into());
+        let format = self.format.format();
         if self.scheme == Tabulated::Tension {
-            let usual = Parameters::new(
-                parameters.valences.clone(),
-                Knots::Detected,
-                &Options::default(),
-                &Range::default(),
-            );
             if parameters != usual || self.embed.is_some() {
                 return Err(Error::usage(
                     "knots, tuning options and --embed belong to the tables of the lambda-scheme",
                     "--valences, --out, --threads and --format",
                 ));
             }
-            let parameters = tension::Parameters::new(parameters.valences);
-            return on_threads(self.threads, || {
-                eigenvalue_tables(parameters, &self.out, self.output.format())
-            })?;
+            self.threads.start()?;
+            return eigenvalue_tables(tension::Parameters::new(parameters.valences), &out, format);
         }
-        let results = on_threads(self.threads, || {
-            regenerate(&parameters, &self.out, self.output.format())
-        })??;
-        if let Some(path) = &self.embed {
+        let embed = match &self.embed {
+            Some(None) if !stored => {
+                let message = format!("{EMBEDDED} is the table of all valences with the default options");
+                return Err(Error::usage(message, "--embed FILE"));
+            }
+            Some(path) => Some(path.clone().unwrap_or_else(|| EMBEDDED.into())),
+            None => None,
+        };
+        self.threads.start()?;
+        let (results, mut written) = regenerate(&parameters, &out, format)?;
+        if let Some(path) = embed {
             let table = results::table(&results.valences, &parameters)?;
-            files::write(path, table.to_json()?.as_bytes())?;
+            written.write(path, table.to_json()?.as_bytes())?;
         }
-        files::emit(None, summary(&results.valences).render(self.output.format()).as_bytes())?;
-        Ok(ExitCode::SUCCESS)
+        let words = results::in_words(&results.valences);
+        finish(&summary(&results.valences), &words, &written, format)
     }
 }
 
-/// Runs work on a pool of that many threads, or on one for each core.
-fn on_threads<T: Send>(threads: Option<u16>, work: impl FnOnce() -> T + Send) -> Result<T, Error> {
-    let count = threads.map_or(0, usize::from);
-    match rayon::ThreadPoolBuilder::new().num_threads(count).build() {
-        Ok(pool) => Ok(pool.install(work)),
-        Err(error) => Err(Error::usage(
-            format!("cannot start {count} threads: {error}"),
-            "a smaller number",
-        )),
+/// Prints a table; what it says in words and the files go to standard error.
+fn finish(table: &Table, words: &str, written: &Written, format: Format) -> Result<ExitCode, Error> {
+    files::emit(None, table.render(format).as_bytes())?;
+    if format == Format::Text {
+        say(words);
     }
+    written.say();
+    Ok(ExitCode::SUCCESS)
 }
 
 /// Computes and writes everything below `out`.
-pub fn regenerate(parameters: &Parameters, out: &Path, format: Format) -> Result<Results, Error> {
+fn regenerate(parameters: &Parameters, out: &Path, format: Format) -> Result<(Results, Written), Error> {
     check(parameters)?;
     let folder = out.join(FOLDER);
-    files::check_writable(&folder)?;
+    files::check_writable(out, &folder)?;
     let resume = folder.join(RESUME);
     let kept = Checkpoints::open(&resume, parameters)?;
     let studies = studies(parameters, &kept, &Terminal)?;
@@ -145,27 +166,30 @@ pub fn regenerate(parameters: &Parameters, out: &Path, format: Format) -> Result
     if format == Format::Latex {
         all.extend(results.latex());
     }
-    for (name, text) in all {
-        files::write(&folder.join(name), text.as_bytes())?;
-    }
+    let written = write_all(&folder, all)?;
     // only now nothing is left to resume
     drop(kept);
     files::remove_folder(&resume)?;
-    Ok(results)
+    Ok((results, written))
 }
 
 /// Computes and writes the tables of the tension scheme.
 fn eigenvalue_tables(parameters: tension::Parameters, out: &Path, format: Format) -> Result<ExitCode, Error> {
     let folder = out.join(tension::FOLDER);
-    files::check_writable(&folder)?;
+    files::check_writable(out, &folder)?;
     let results = tension::Results::new(parameters, &Terminal)?;
     let mut all = results.files();
     if format == Format::Latex {
         all.extend(results.latex());
     }
-    for (name, text) in all {
-        files::write(&folder.join(name), text.as_bytes())?;
+    let written = write_all(&folder, all)?;
+    finish(&results.smallest_gaps(), &results.in_words(), &written, format)
+}
+
+fn write_all(folder: &Path, files: Vec<(String, String)>) -> Result<Written, Error> {
+    let mut written = Written::default();
+    for (name, text) in files {
+        written.write(folder.join(name), text.as_bytes())?;
     }
-    files::emit(None, results.smallest_gaps().render(format).as_bytes())?;
-    Ok(ExitCode::SUCCESS)
+    Ok(written)
 }

@@ -1,9 +1,11 @@
 //! `eigenring tune`: the best stencil at one lambda, or over all.
 
-use crate::args::{self, Output, TuningArgs};
+use crate::args::{self, TuningArgs};
 use crate::error::Error;
-use crate::files;
+use crate::output::Output;
 use crate::progress::Terminal;
+use crate::threads::Threads;
+use crate::valences::Valence;
 use clap::{ArgGroup, Args};
 use eigenring_atlas::table::{Format, pretty};
 use eigenring_atlas::tune::{Found, at, over_lambda};
@@ -19,9 +21,8 @@ use std::process::ExitCode;
 #[command(group = ArgGroup::new("target").required(true))]
 #[command(after_help = "Examples:\n  eigenring tune -N 6 --lambda 0.39\n  eigenring tune -N 25 --global --format json")]
 pub struct Arguments {
-    /// Valence
-    #[arg(short = 'N', long, value_name = "N", value_parser = args::valence, allow_negative_numbers = true)]
-    valence: usize,
+    #[command(flatten)]
+    valence: Valence,
     /// Subdominant eigenvalue, 1/8 < lambda < 1
     #[arg(
         long,
@@ -37,15 +38,19 @@ pub struct Arguments {
     #[command(flatten)]
     tuning: TuningArgs,
     #[command(flatten)]
+    threads: Threads,
+    #[command(flatten)]
     output: Output,
 }
 
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
+        let format = self.output.format()?;
+        self.threads.start()?;
         let options = self.tuning.options();
         let found = match self.lambda {
-            Some(lambda) => at(self.valence, lambda, &options)?,
-            None => over_lambda(self.valence, &options, &Terminal)?,
+            Some(lambda) => at(self.valence.valence, lambda, &options)?,
+            None => over_lambda(self.valence.valence, &options, &Terminal)?,
         };
         let Found {
             record,
@@ -53,7 +58,7 @@ impl Arguments {
             title,
             minima,
         } = found;
-        let text = match self.output.format() {
+        let text = match format {
             Format::Json => {
                 let mut object = record.json();
                 object.insert("active".to_owned(), active.into());
@@ -67,7 +72,7 @@ impl Arguments {
             }
             format => record.with("active", active.join("+")).render(format),
         };
-        files::emit(None, text.as_bytes())?;
+        self.output.emit(&text)?;
         Ok(ExitCode::SUCCESS)
     }
 }

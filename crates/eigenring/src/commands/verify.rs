@@ -2,16 +2,20 @@
 
 mod all;
 
-use crate::args::{self, CornerArgs, Output, Valences};
+use super::{RESULTS, UNSTORED};
+use crate::args::{self, CornerArgs};
 use crate::error::Error;
 use crate::files;
+use crate::output::FormatOption;
 use crate::progress::{Terminal, note};
+use crate::threads::Threads;
+use crate::valences::{self, MAX_VALENCE, Valences};
 use clap::{ArgGroup, Args, ValueEnum};
 use eigenring_atlas::certificates::{beside, confirm, curve};
 use eigenring_atlas::progress::each;
 use eigenring_atlas::report;
 use eigenring_atlas::schemes::SchemeName;
-use eigenring_certify::range::{Limits, prove_range};
+use eigenring_certify::range::{Limits, RangeCertificate, prove_range};
 use eigenring_certify::{Requirement, Status, certify};
 use eigenring_scheme::user::Reading;
 use std::path::{Path, PathBuf};
@@ -26,27 +30,38 @@ use std::process::ExitCode;
 #[derive(Args, Debug)]
 #[command(group = ArgGroup::new("what").required(true).multiple(true))]
 #[command(
-    after_help = "Examples:\n  eigenring verify --scheme catmull-clark -N 5\n  eigenring verify --scheme lambda:optimal -N 6 --require strict\n  eigenring verify --lambda-range 0.4..0.6 -N 6 --require strict\n  eigenring verify --scheme catmull-clark -N 3 --format json\n  eigenring verify --scheme catmull-clark -N 7 -o N7.json      (and then: eigenring verify --recheck N7.json)\n  eigenring verify --all                                       rebuilds results/certificates"
+    after_help = "Examples:\n  eigenring verify --scheme catmull-clark -N 5\n  eigenring verify --scheme lambda:optimal -N 3,6..8 --require strict\n  eigenring verify --lambda-range 0.4..0.6 -N 6 --require strict\n  eigenring verify --scheme catmull-clark -N 3 --format json\n  eigenring verify --scheme catmull-clark -N 7 -o N7.json   store the certificate, to be checked again:\n  eigenring verify --recheck N7.json\n  eigenring verify --all                                       rebuilds results/certificates"
 )]
 pub struct Arguments {
     /// The scheme: see 'eigenring --help'; with --lambda-range its weights f2 and f3 are kept, by default
     /// those of the splines
     #[arg(long, value_name = "SPEC", group = "what", conflicts_with_all = ["recheck", "all"])]
     scheme: Option<SchemeName>,
+    /// Valences: numbers and ranges, such as 5 or 3,5..8, with a certificate for each; may be left out with
+    /// --fan and --knots, which fix it. With --all: those of the lambda-scheme, by default 3..20
+    #[arg(
+        short = 'N',
+        long = "valence",
+        visible_alias = "valences",
+        value_name = "LIST",
+        conflicts_with = "recheck",
+        allow_negative_numbers = true
+    )]
+    valences: Option<Valences>,
     #[command(flatten)]
     corner: CornerArgs,
     /// The lambda-scheme for every lambda from A to B
     #[arg(long, value_name = "A..B", group = "what", value_parser = range, allow_hyphen_values = true, conflicts_with_all = ["recheck", "all"])]
     lambda_range: Option<[f64; 2]>,
     /// What must be proven
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_enum, default_value_t, conflicts_with_all = ["recheck", "all"])]
     require: Required,
     /// Take the weights of a file as they are written: by default the special stencils' sums within 1e-12 of
     /// 1, and weights that a reflection exchanges (at the centre also a rotation) and that differ by no more,
     /// are taken for rounded and balanced
     #[arg(long, conflicts_with_all = ["recheck", "all", "lambda_range"])]
     exact: bool,
-    /// Also store the certificate
+    /// Also store the certificate; with several valences a folder, with a file such as N005.json for each
     #[arg(short, long, value_name = "FILE", conflicts_with_all = ["recheck", "all"])]
     output: Option<PathBuf>,
     /// Check a stored certificate again, or all that a folder holds, by its evidence alone
@@ -56,20 +71,14 @@ pub struct Arguments {
     /// and ranges of lambda
     #[arg(long, group = "what")]
     all: bool,
-    /// With --all: valences of the lambda-scheme
-    #[arg(
-        long,
-        value_name = "LIST",
-        default_value = "3..20",
-        allow_hyphen_values = true,
-        requires = "all"
-    )]
-    valences: Valences,
-    /// With --all: output folder; files go to its subfolder certificates
-    #[arg(long, value_name = "FOLDER", default_value = "results", requires = "all")]
-    out: PathBuf,
+    /// With --all: output folder; files go to its subfolder certificates. By default results, or
+    /// eigenring-out with a choice of valences
+    #[arg(long, value_name = "FOLDER", requires = "all")]
+    out: Option<PathBuf>,
     #[command(flatten)]
-    format: Output,
+    threads: Threads,
+    #[command(flatten)]
+    format: FormatOption,
 }
 
 /// Degrees from which a certificate takes ten seconds or more: 11 s at order 14, minutes at order 22.
@@ -111,75 +120,139 @@ fn range(text: &str) -> Result<[f64; 2], String> {
 
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
+        // the parser lets an option pass whose partner conflicts with another one
+        if self.out.is_some() && !self.all {
+            return Err(Error::usage(
+                "--out has no meaning for one certificate",
+                "--all with --out, or -o FILE",
+            ));
+        }
+        self.threads.start()?;
         if let Some(path) = &self.recheck {
+            self.corner.refuse("with --recheck")?;
             return self.check_again(path);
         }
         if self.all {
-            all::make(&self.valences.0, &self.out)?;
-            return Ok(ExitCode::SUCCESS);
+            self.corner.refuse("with --all")?;
+            let default = if self.valences.is_some() { UNSTORED } else { RESULTS };
+            let out = self.out.clone().unwrap_or_else(|| default.into());
+            let usual: Vec<usize> = (3..=20).collect();
+            let valences = self.valences.as_ref().map_or(Ok(usual.as_slice()), Valences::closed)?;
+            return all::make(valences, &out, self.format.format());
         }
+        let valences = self.valences.as_ref().map(Valences::closed).transpose()?;
         match self.lambda_range {
-            Some(lambda) => self.over_range(self.corner.plain()?, lambda),
-            None => self.at_corner(),
+            Some(lambda) => {
+                self.corner.refuse("over a range of lambda")?;
+                self.over_range(valences.ok_or_else(valences::missing)?, lambda)
+            }
+            None => self.at_corners(valences),
         }
     }
 
-    fn at_corner(&self) -> Result<ExitCode, Error> {
-        let (shape, steps) = self.corner.shape()?;
+    /// Certificates of a scheme around the corners that are asked for, one for each valence.
+    fn at_corners(&self, valences: Option<&[usize]>) -> Result<ExitCode, Error> {
+        let corners = match valences {
+            Some(valences) => valences
+                .iter()
+                .map(|&valence| self.corner.shape(Some(valence)))
+                .collect(),
+            None => self.corner.shape(None).map(|corner| vec![corner]),
+        }?;
         let scheme = self.scheme.as_ref();
         let scheme = scheme.ok_or_else(|| Error::usage("no scheme is given", "--scheme SPEC"))?;
-        let reading = if self.exact { Reading::Exact } else { Reading::Balanced };
-        let tuner = args::tuner();
-        let corner = shape.corner(scheme.centre()?, steps)?;
-        let valence = corner.sectors().sectors();
-        let input = beside(scheme, &shape, steps, reading, &tuner)?;
-        let degree = scheme.around(&corner, &tuner)?.degree();
-        if degree.is_some_and(|degree| degree >= LARGE) {
-            note("patches of high degree have large blocks: this may take minutes");
-        }
-        let certificate = certify(input, valence)?;
-        if let Some(path) = &self.output {
-            files::write(path, certificate.to_json()?.as_bytes())?;
-        }
-        let requirement = self.require.into();
-        files::emit(
-            None,
-            report::certificate(&certificate, requirement, self.format.format()).as_bytes(),
-        )?;
-        if let Some(balanced) = certificate.balanced {
-            note(&format!(
-                "rounded weights were balanced in {} stencil{}, the largest change is {:e}; --exact takes them as written",
-                balanced.rows,
-                if balanced.rows == 1 { "" } else { "s" },
-                balanced.largest
+        if self.exact && !matches!(scheme, SchemeName::File(_)) {
+            return Err(Error::usage(
+                "--exact has no meaning for a scheme that is built in, whose weights are exact",
+                "--exact with --scheme file:SCHEME.toml",
             ));
         }
-        let (_, status) = requirement.verdict(&certificate.checks);
-        if status == Status::Numerical {
+        let reading = if self.exact { Reading::Exact } else { Reading::Balanced };
+        let tuner = args::tuner();
+        let mut inputs = Vec::new();
+        let mut large = false;
+        for (shape, steps) in &corners {
+            let corner = shape.corner(scheme.centre()?, *steps)?;
+            let input = beside(scheme, shape, *steps, reading, &tuner)?;
+            let degree = scheme.around(&corner, &tuner)?.degree();
+            large |= degree.is_some_and(|degree| degree >= LARGE);
+            inputs.push((input, corner.sectors().sectors()));
+        }
+        if large {
+            note("patches of high degree have large blocks: this may take minutes");
+        }
+        let certificates = each(&Terminal, "certificates", &inputs, |(input, valence)| {
+            certify(input.clone(), *valence)
+        })?;
+        self.store(&certificates, |certificate| {
+            (certificate.valence, certificate.to_json())
+        })?;
+        let requirement = self.require.into();
+        let text = report::certificates(&certificates, requirement, self.format.format());
+        files::emit(None, text.as_bytes())?;
+        let balanced: Vec<_> = certificates
+            .iter()
+            .filter_map(|certificate| certificate.balanced)
+            .collect();
+        if let Some(largest) = balanced.iter().map(|balanced| balanced.largest).reduce(f64::max) {
+            let rows: usize = balanced.iter().map(|balanced| balanced.rows).sum();
+            note(&format!(
+                "rounded weights were balanced in {rows} stencil{}, the largest change is {largest:e}; --exact takes them as written",
+                if rows == 1 { "" } else { "s" },
+            ));
+        }
+        let statuses: Vec<Status> = certificates
+            .iter()
+            .map(|certificate| requirement.verdict(&certificate.checks).1)
+            .collect();
+        if statuses.contains(&Status::Numerical) {
             note("holds for weights that are results of rounding; of the exact scheme nothing is proven");
         }
-        Ok(exit(status == Status::Proven))
+        Ok(exit(statuses.iter().all(|&status| status == Status::Proven)))
     }
 
-    fn over_range(&self, valence: usize, lambda: [f64; 2]) -> Result<ExitCode, Error> {
-        let curve = curve(self.scheme.as_ref(), valence)?;
+    fn over_range(&self, valences: &[usize], lambda: [f64; 2]) -> Result<ExitCode, Error> {
         let requirement: Requirement = self.require.into();
         if requirement == Requirement::Hull {
             return Err(Error::usage("hull is not checked over a range", "c1, bounded, strict"));
         }
-        let certificate = prove_range(valence, curve, lambda, Limits::default())?;
-        if let Some(path) = &self.output {
-            files::write(path, certificate.to_json()?.as_bytes())?;
-        }
-        files::emit(
-            None,
-            report::range(&certificate, requirement, self.format.format()).as_bytes(),
-        )?;
-        let proven = certificate
-            .required(requirement)
+        let curves = valences
             .iter()
-            .all(|s| s.status == Status::Proven);
-        Ok(exit(proven))
+            .map(|&valence| Ok((valence, curve(self.scheme.as_ref(), valence)?)));
+        let curves: Vec<_> = curves.collect::<Result<_, Error>>()?;
+        let certificates = each(&Terminal, "ranges of lambda", &curves, |(valence, curve)| {
+            prove_range(*valence, curve.clone(), lambda, Limits::default())
+        })?;
+        self.store(&certificates, |certificate| {
+            (certificate.valence, certificate.to_json())
+        })?;
+        let text = report::ranges(&certificates, requirement, self.format.format());
+        files::emit(None, text.as_bytes())?;
+        let proven = |certificate: &RangeCertificate| {
+            let required = certificate.required(requirement);
+            required.iter().all(|segment| segment.status == Status::Proven)
+        };
+        Ok(exit(certificates.iter().all(proven)))
+    }
+
+    /// Writes certificates to the file that is named, or several into a folder.
+    fn store<C, E: Into<Error>>(
+        &self,
+        certificates: &[C],
+        text: impl Fn(&C) -> (usize, Result<String, E>),
+    ) -> Result<(), Error> {
+        let Some(path) = &self.output else {
+            return Ok(());
+        };
+        for certificate in certificates {
+            let (valence, json) = text(certificate);
+            let path = match certificates {
+                [_] => path.clone(),
+                _ => path.join(format!("N{valence:03}.json")),
+            };
+            files::save(&path, json.map_err(Into::into)?.as_bytes())?;
+        }
+        Ok(())
     }
 
     fn check_again(&self, path: &Path) -> Result<ExitCode, Error> {
@@ -197,9 +270,7 @@ impl Arguments {
             let error = eigenring_atlas::Error::content("the folder holds no certificate");
             return Err(error.in_file(path).into());
         }
-        let rows = each(&Terminal, "certificates", &paths, |path| {
-            confirm(path, args::MAX_VALENCE)
-        })?;
+        let rows = each(&Terminal, "certificates", &paths, |path| confirm(path, MAX_VALENCE))?;
         files::emit(None, report::rechecks(&rows, self.format.format()).as_bytes())?;
         Ok(exit(rows.iter().all(|row| row.confirmed)))
     }

@@ -119,7 +119,18 @@ impl Relaxation {
         if s * lambda < 1.0 {
             return Plane::new(valence, lambda, s);
         }
-        Err(Error::RelaxationRule { valence, lambda, s })
+        let holds = |valence: &usize| {
+            Relaxation { valence: *valence }
+                .s(lambda)
+                .is_ok_and(|s| s * lambda < 1.0)
+        };
+        let largest = (3..valence).take_while(holds).last();
+        Err(Error::RelaxationRule {
+            valence,
+            lambda,
+            s,
+            largest,
+        })
     }
 
     /// The smooth piece that is valid at lambda; at a kink the one on the right for terms, on the left for

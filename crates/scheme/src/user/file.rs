@@ -1,7 +1,7 @@
 //! The form of a scheme file: what TOML may hold, and its translation into rules.
 
 use super::{PassRules, Rules};
-use crate::{Error, Exact, Fan, Lattice, Line, Number, OneRing, RuleFault, Site};
+use crate::{Error, Exact, Fan, Lattice, Line, Number, OneRing, RuleFault, Site, did_you_mean};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -96,9 +96,10 @@ impl Reader<'_> {
         match table.keys().find(|key| !keys.contains(&key.get_ref().as_ref())) {
             None => Ok(()),
             Some(key) => Err(file_error(format!(
-                "{}unknown key '{}' of {what}: accepted are {}",
+                "{}unknown key '{}' of {what}{}: accepted are {}",
                 place(self.text, key.span().start),
                 key.get_ref(),
+                did_you_mean(key.get_ref(), keys.iter().copied()),
                 keys.join(", ")
             ))),
         }
@@ -348,7 +349,7 @@ impl Reader<'_> {
     }
 
     fn site(&self, node: &Node, fan: Fan, lattice: Lattice, sector: i64) -> Result<Site, Error> {
-        const PAIR: &str = "a pair of half steps [x, y]";
+        const PAIR: &str = "a pair of half steps [x, y]: [2, 0] is the next vertex on the spoke, [1, 1] the next face";
         let &[x, y] = self.array(node, "at", PAIR)?.as_slice() else {
             return Err(self.error(node, format!("at: accepted is {PAIR}")));
         };
@@ -367,7 +368,7 @@ impl Reader<'_> {
             self.error(
                 node,
                 format!(
-                    "at = [{x}, {y}] is not a point of the {name} net: accepted are {numbers} half steps with 0 < x <= {bound}, 0 <= y <= {bound}{centre}"
+                    "at = [{x}, {y}] is not a point of the {name} net: accepted are {numbers} half steps with 0 < x <= {bound}, 0 <= y <= {bound}{centre}; [2, 0] is one edge, [1, 1] the middle of the next face"
                 ),
             )
         })
