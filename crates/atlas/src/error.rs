@@ -28,6 +28,9 @@ pub enum Error {
     /// From the study of a valence.
     #[error(transparent)]
     Study(#[from] eigenring_tune::study::Error),
+    /// From meshes and surfaces.
+    #[error(transparent)]
+    Surface(#[from] eigenring_surface::Error),
     /// From drawing.
     #[error(transparent)]
     Figure(#[from] eigenring_figure::Error),
@@ -154,6 +157,7 @@ impl Error {
             | Error::Search(_)
             | Error::Sweep(_)
             | Error::Study(_)
+            | Error::Surface(_)
             | Error::Figure(_)
             | Error::Certify(_) => accepted_in(&self.to_string()),
         }

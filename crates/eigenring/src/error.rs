@@ -37,6 +37,12 @@ impl From<eigenring_scheme::Error> for Error {
     }
 }
 
+impl From<eigenring_surface::Error> for Error {
+    fn from(error: eigenring_surface::Error) -> Self {
+        Error::Atlas(error.into())
+    }
+}
+
 impl From<eigenring_spline::Error> for Error {
     fn from(error: eigenring_spline::Error) -> Self {
         Error::Atlas(error.into())

@@ -10,6 +10,7 @@ mod command_line;
 mod commands;
 mod error;
 mod files;
+mod memory;
 mod output;
 mod progress;
 mod threads;

@@ -50,6 +50,18 @@ impl Definition {
         Corner::closed(self.centre(), valence)
     }
 
+    /// The rules around an inner centre of any valence: those [around](Definition::around) a closed fan of so
+    /// many like sectors, of which there may be more than a local matrix can have.
+    ///
+    /// # Errors
+    /// Those of the family or file.
+    pub fn inner<S: Scalar + Copy>(&self, valence: usize) -> Result<Scheme<S>, Error> {
+        match self {
+            Definition::Family(spec) => spec.scheme(valence),
+            Definition::File(file) => file.scheme(valence),
+        }
+    }
+
     /// The rules around a corner.
     ///
     /// # Errors
@@ -58,10 +70,7 @@ impl Definition {
     pub fn around<S: Scalar + Copy>(&self, corner: &Corner) -> Result<Scheme<S>, Error> {
         let valence = corner.sectors().sectors();
         if corner.is_plain() && corner.centre() == self.centre() {
-            return match self {
-                Definition::Family(spec) => spec.scheme(valence),
-                Definition::File(file) => file.scheme(valence),
-            };
+            return self.inner(valence);
         }
         self.beside_features(corner)
     }

@@ -4,11 +4,13 @@ mod compare;
 mod completions;
 mod curve;
 mod matrix;
+mod mesh;
 mod objective;
 mod plot;
 mod reproduce;
 mod spectrum;
 mod stencil;
+mod subdivide;
 mod tables;
 mod tune;
 mod verify;
@@ -47,6 +49,8 @@ enum Command {
     Matrix(matrix::Arguments),
     Compare(compare::Arguments),
     Curve(curve::Arguments),
+    Mesh(mesh::Arguments),
+    Subdivide(subdivide::Arguments),
     Plot(plot::Arguments),
     Reproduce(reproduce::Arguments),
     Completions(completions::Arguments),
@@ -66,6 +70,8 @@ impl Cli {
             Command::Matrix(arguments) => arguments.run(),
             Command::Compare(arguments) => arguments.run(),
             Command::Curve(arguments) => arguments.run(),
+            Command::Mesh(arguments) => arguments.run(),
+            Command::Subdivide(arguments) => arguments.run(),
             Command::Plot(arguments) => arguments.run(),
             Command::Reproduce(arguments) => arguments.run(),
             Command::Completions(arguments) => arguments.run(),

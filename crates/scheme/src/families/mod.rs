@@ -3,13 +3,15 @@
 mod catmull_clark;
 mod doo_sabin;
 mod features;
+mod half_cell;
 mod intervals;
 mod tension;
 
 pub use catmull_clark::{catmull_clark, catmull_clark_weights};
 pub use doo_sabin::doo_sabin;
+pub use half_cell::half_cell;
 pub use intervals::with_intervals;
-pub use tension::{MAX_ORDER, tension};
+pub use tension::{MAX_ORDER, smoothing_weights, tension, tension_at};
 
 use crate::{Centre, Corner, Error, Level, Scalar, Scheme};
 

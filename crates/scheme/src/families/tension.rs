@@ -98,6 +98,20 @@ pub(super) fn tensions<S: Scalar>(u0: f64) -> Vec<S> {
     tensions
 }
 
+/// The tension of refinement `level`, 0 for the first, that starts with `u0`.
+pub fn tension_at<S: Scalar>(u0: f64, level: usize) -> S {
+    let mut tensions = tensions(u0);
+    tensions.swap_remove(level.min(tensions.len() - 1))
+}
+
+/// The weights of smoothing `step`, 0 for the one that knows the tension `u`, at a vertex of any valence from
+/// 2: its own, that of each edge neighbour, that of each face neighbour.
+pub fn smoothing_weights<S: Scalar>(step: usize, valence: usize, u: S) -> [S; 3] {
+    let [_, _, own, edge, face] = smoothing_names(step, valence as i64);
+    let values = Values::new(valence, u);
+    [own, edge, face].map(|name| values.of(name))
+}
+
 /// The weights of smoothing `step`, 0 for the one that knows the tension: side and middle of the line, then
 /// the centre's own weight, that of each edge neighbour and that of each face neighbour.
 pub(super) fn smoothing_names(step: usize, n: i64) -> [Name; 5] {

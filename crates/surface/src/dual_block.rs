@@ -1,0 +1,223 @@
+//! Fine levels of corner cutting as blocks: order 3 on closed meshes without creases.
+//!
+//! After the first level every corner `h` of a face of the control mesh is a point, and from then on a block
+//! of `n x n` points, `n = 1, 2, 4, ..`: from the face's vertex v at (0, 0) along its edge to (1, 0), the
+//! middle of the face at (1, 1). Each point becomes four by the scheme's [`Line`], and reads its neighbours in
+//! the block or across its sides; only the points next to a vertex or face that is not of size 4 have rows of
+//! their own.
+
+use crate::rules::Rules;
+use crate::workers::Workers;
+use crate::{Error, Mesh, Topology};
+use eigenring_scheme::{Line, Site};
+use nalgebra::Point3;
+
+/// The blocks of a control mesh.
+struct Blocks<'a> {
+    topology: &'a Topology,
+    rules: &'a Rules,
+}
+
+/// Where the point `(x, y)` of the block of a corner is.
+fn at(n: usize, half: u32, x: usize, y: usize) -> usize {
+    (half as usize * n + y) * n + x
+}
+
+/// The net after `levels` levels of corner cutting, at least two, of a closed mesh.
+pub(crate) fn refined(mesh: &Mesh, rules: &Rules, levels: usize, workers: &dyn Workers) -> Result<Mesh, Error> {
+    let topology = &Topology::unchecked(mesh);
+    let blocks = Blocks { topology, rules };
+    let count = topology.half_count() << (2 * (levels - 1));
+    if 4 * count >= u32::MAX as usize {
+        return Err(Error::TooLarge {
+            what: "corners of faces",
+            count: 4 * count,
+        });
+    }
+    let mut points = blocks.first(mesh)?;
+    let mut n = 1;
+    for level in 1..levels {
+        points = blocks.level(&points, n, level, workers)?;
+        n *= 2;
+    }
+    blocks.cells(points, n)
+}
+
+impl Blocks<'_> {
+    /// The points of the first level, in the order of corners.
+    fn first(&self, mesh: &Mesh) -> Result<Vec<Point3<f64>>, Error> {
+        let mut points = vec![Point3::origin(); self.topology.half_count()];
+        for face in 0..self.topology.face_count() as u32 {
+            let halves: Vec<u32> = self.topology.face_halves(face).collect();
+            let old: Vec<Point3<f64>> = mesh.face(face as usize).iter().map(|&v| mesh.points()[v as usize]).collect();
+            for (half, point) in halves.into_iter().zip(self.cut(&old, 0)?) {
+                points[half as usize] = point;
+            }
+        }
+        Ok(points)
+    }
+
+    /// The new corners of a cell.
+    fn cut(&self, old: &[Point3<f64>], level: usize) -> Result<Vec<Point3<f64>>, Error> {
+        let n = old.len();
+        let scheme = self.rules.inner(None, n)?;
+        let stencil = scheme.level(level).stencil(0, Site { sector: 0, x: 1, y: 1 })?;
+        let new = |corner: usize| {
+            let mut sum = [0.0; 3];
+            for (site, weight) in stencil.terms() {
+                let point = &old[(corner + site.sector) % n];
+                (0..3).for_each(|k| sum[k] += weight * point[k]);
+            }
+            Point3::from(sum)
+        };
+        Ok((0..n).map(new).collect())
+    }
+
+    fn level(
+        &self,
+        old: &[Point3<f64>],
+        n: usize,
+        level: usize,
+        workers: &dyn Workers,
+    ) -> Result<Vec<Point3<f64>>, Error> {
+        let topology = self.topology;
+        let regular = self.rules.inner(None, 4)?;
+        let line = regular.level(level).passes()[0].line().cloned().unwrap_or_else(|| Line::corner_cutting(1.0));
+        let mut new = vec![Point3::origin(); 4 * old.len()];
+        let parts = new.chunks_mut(4 * n * n).collect();
+        workers.points(parts, &|half, part| {
+            let block = self.with_halo(old, n, half as u32);
+            cut_block(&line, &block, n, part);
+        });
+        for vertex in 0..topology.vertex_count() as u32 {
+            let spokes = topology.fan(vertex).spokes;
+            if spokes.len() != 4 && !spokes.is_empty() {
+                let corners: Vec<Point3<f64>> = spokes.iter().map(|&half| old[at(n, half, 0, 0)]).collect();
+                for (&half, point) in spokes.iter().zip(self.cut(&corners, level)?) {
+                    new[at(2 * n, half, 0, 0)] = point;
+                }
+            }
+        }
+        for face in 0..topology.face_count() as u32 {
+            let halves: Vec<u32> = topology.face_halves(face).collect();
+            if halves.len() != 4 {
+                let corners: Vec<Point3<f64>> = halves.iter().map(|&half| old[at(n, half, n - 1, n - 1)]).collect();
+                for (&half, point) in halves.iter().zip(self.cut(&corners, level)?) {
+                    new[at(2 * n, half, 2 * n - 1, 2 * n - 1)] = point;
+                }
+            }
+        }
+        Ok(new)
+    }
+
+    /// The points of a block and those around it, row by row from (-1, -1). Where there is no unique point
+    /// beyond a corner the block's own stands for it; it is read by the point that has its own row only.
+    fn with_halo(&self, old: &[Point3<f64>], n: usize, half: u32) -> Vec<Point3<f64>> {
+        let topology = self.topology;
+        // closed meshes have twins
+        let twin = |half: u32| topology.twin(half).unwrap_or(half);
+        let below = topology.next(twin(half));
+        let left = twin(topology.previous(half));
+        let (right, above) = (topology.next(half), topology.previous(half));
+        let side = n + 2;
+        let mut block = vec![Point3::origin(); side * side];
+        for y in 0..n {
+            let start = at(n, half, 0, y);
+            block[(y + 1) * side + 1..(y + 1) * side + 1 + n].copy_from_slice(&old[start..start + n]);
+        }
+        for i in 0..n {
+            block[i + 1] = old[at(n, below, 0, i)];
+            block[(i + 1) * side] = old[at(n, left, i, 0)];
+            block[(i + 1) * side + n + 1] = old[at(n, right, i, n - 1)];
+            block[(n + 1) * side + i + 1] = old[at(n, above, n - 1, i)];
+        }
+        block[0] = old[at(n, topology.next(twin(below)), 0, 0)];
+        block[n + 1] = old[at(n, twin(half), n - 1, 0)];
+        block[(n + 1) * side] = old[at(n, topology.next(left), 0, n - 1)];
+        block[(n + 1) * side + n + 1] = old[at(n, topology.next(right), n - 1, n - 1)];
+        block
+    }
+
+    fn cells(&self, points: Vec<Point3<f64>>, n: usize) -> Result<Mesh, Error> {
+        let topology = self.topology;
+        let mut mesh = Mesh::of_points(points);
+        let index = |half: u32, x: usize, y: usize| at(n, half, x, y) as u32;
+        for half in 0..topology.half_count() as u32 {
+            let twin = topology.twin(half).unwrap_or(half);
+            let (below, right) = (topology.next(twin), topology.next(half));
+            for y in 0..n - 1 {
+                for x in 0..n - 1 {
+                    mesh.push_corners(&[
+                        index(half, x, y),
+                        index(half, x + 1, y),
+                        index(half, x + 1, y + 1),
+                        index(half, x, y + 1),
+                    ]);
+                }
+            }
+            for i in 0..n - 1 {
+                mesh.push_corners(&[
+                    index(below, 0, i),
+                    index(below, 0, i + 1),
+                    index(half, i + 1, 0),
+                    index(half, i, 0),
+                ]);
+                mesh.push_corners(&[
+                    index(half, n - 1, i),
+                    index(right, i, n - 1),
+                    index(right, i + 1, n - 1),
+                    index(half, n - 1, i + 1),
+                ]);
+            }
+            if half < twin {
+                mesh.push_corners(&[
+                    index(right, 0, n - 1),
+                    index(half, n - 1, 0),
+                    index(below, 0, n - 1),
+                    index(twin, n - 1, 0),
+                ]);
+            }
+        }
+        for vertex in 0..topology.vertex_count() as u32 {
+            let corners: Vec<u32> = topology.fan(vertex).spokes.iter().map(|&half| index(half, 0, 0)).collect();
+            if !corners.is_empty() {
+                mesh.push_corners(&corners);
+            }
+        }
+        for face in 0..topology.face_count() as u32 {
+            let corners: Vec<u32> = topology.face_halves(face).map(|half| index(half, n - 1, n - 1)).collect();
+            mesh.push_corners(&corners);
+        }
+        Ok(mesh)
+    }
+}
+
+/// Four points for each of a block with its halo.
+fn cut_block(line: &Line<f64>, block: &[Point3<f64>], n: usize, part: &mut [Point3<f64>]) {
+    // of the targets 2i, 2i+1 of a point i: the offsets of both sources in points, and their weights
+    let taps = [0, 1].map(|a| -> [(usize, f64); 2] {
+        let mut found = [(0, 0.0); 2];
+        for (slot, (source, weight)) in found.iter_mut().zip(line.taps(2 * (8 + a) + 1)) {
+            // the point i = 4 sits at 9 half steps; offsets count from one point before
+            *slot = (((source - 9) / 2 + 1) as usize, weight);
+        }
+        found
+    });
+    let side = n + 2;
+    for (y2, row) in part.chunks_exact_mut(2 * n).enumerate() {
+        for (x2, point) in row.iter_mut().enumerate() {
+            let base = (y2 / 2) * side + x2 / 2;
+            let mut sum = [0.0; 3];
+            for (x, wx) in taps[x2 % 2] {
+                for (y, wy) in taps[y2 % 2] {
+                    let source = &block[base + y * side + x];
+                    let weight = wx * wy;
+                    sum[0] += weight * source.x;
+                    sum[1] += weight * source.y;
+                    sum[2] += weight * source.z;
+                }
+            }
+            *point = Point3::from(sum);
+        }
+    }
+}
