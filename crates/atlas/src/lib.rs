@@ -32,7 +32,7 @@
 //! | [`stencil`], [`tune`] | one member of the lambda-scheme; the best one |
 //! | [`certificates`], [`report`] | what is certified, checked again, summed up and printed |
 //! | [`curve`] | curves and surfaces of revolution |
-//! | [`meshes`] | mesh files, the rules of a scheme on a mesh, refinement |
+//! | [`meshes`], [`limits`] | limit points as tables; mesh files, the rules of a scheme on a mesh, refinement |
 //! | [`run`], [`results`], [`tension`] | the studies behind `results/`, and its files as text |
 //! | [`figures`] | pictures with the tables of what they show |
 //! | [`index`], [`difference`] | what makes and checks `results/`, and comparing its files number by number |
@@ -55,6 +55,7 @@ mod error;
 pub mod figures;
 pub mod files;
 pub mod index;
+pub mod limits;
 pub mod matrix;
 pub mod meshes;
 pub mod progress;

@@ -50,6 +50,26 @@ impl Rules {
         self
     }
 
+    /// The same rules for points with other numbers; `named` gives the vertex that a point was.
+    pub(crate) fn renumbered(&self, named: &HashMap<u32, u32>) -> Rules {
+        let own = |(&point, vertex): (&u32, &u32)| Some((point, *self.by_vertex.get(vertex)?));
+        Rules {
+            definitions: self.definitions.clone(),
+            by_vertex: named.iter().filter_map(own).collect(),
+            by_valence: self.by_valence.clone(),
+            steps: self.steps,
+            inner: Mutex::default(),
+        }
+    }
+
+    /// Whether special rules reach farther than the vertex itself.
+    pub(crate) fn reaches_beyond_vertex(&self) -> bool {
+        !matches!(
+            self.definition(),
+            Definition::Family(Spec::CatmullClark | Spec::Tension { .. } | Spec::Stam { .. } | Spec::Morin { .. })
+        ) || !self.by_vertex.is_empty()
+    }
+
     /// Another definition around all centres of a valence without one of their own.
     pub fn with_valence(mut self, valence: usize, definition: Definition) -> Self {
         self.definitions.push(definition);

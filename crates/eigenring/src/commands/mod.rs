@@ -3,6 +3,7 @@
 mod compare;
 mod completions;
 mod curve;
+mod limit;
 mod matrix;
 mod mesh;
 mod objective;
@@ -51,6 +52,7 @@ enum Command {
     Curve(curve::Arguments),
     Mesh(mesh::Arguments),
     Subdivide(subdivide::Arguments),
+    Limit(limit::Arguments),
     Plot(plot::Arguments),
     Reproduce(reproduce::Arguments),
     Completions(completions::Arguments),
@@ -72,6 +74,7 @@ impl Cli {
             Command::Curve(arguments) => arguments.run(),
             Command::Mesh(arguments) => arguments.run(),
             Command::Subdivide(arguments) => arguments.run(),
+            Command::Limit(arguments) => arguments.run(),
             Command::Plot(arguments) => arguments.run(),
             Command::Reproduce(arguments) => arguments.run(),
             Command::Completions(arguments) => arguments.run(),

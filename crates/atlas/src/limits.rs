@@ -1,0 +1,150 @@
+//! Limit points of surfaces as tables: at places, at vertices, on grids.
+
+use crate::error::{Accepted, Error};
+use crate::table::{Cell, Table};
+use eigenring_surface::limit::{Kind, Place, Sample, Surface, VertexFan};
+use rayon::prelude::*;
+use std::path::Path;
+
+/// Samples at places, in their order; faces are evaluated in parallel.
+///
+/// # Errors
+/// Those of [`Surface::at`], for the first face with one.
+pub fn samples(surface: &Surface<'_>, places: &[Place]) -> Result<Vec<Sample>, Error> {
+    let mut order: Vec<u32> = (0..places.len() as u32).collect();
+    order.sort_by_key(|&index| places[index as usize].face);
+    let groups: Vec<&[u32]> = order
+        .chunk_by(|&a, &b| places[a as usize].face == places[b as usize].face)
+        .collect();
+    let found: Result<Vec<Vec<Sample>>, eigenring_surface::Error> = groups
+        .par_iter()
+        .map(|group| {
+            let mut evaluator = surface.evaluator(places[group[0] as usize].face)?;
+            group.iter().map(|&index| evaluator.at(places[index as usize])).collect()
+        })
+        .collect();
+    let mut samples = vec![None; places.len()];
+    for (group, found) in groups.iter().zip(found?) {
+        for (&index, sample) in group.iter().zip(found) {
+            samples[index as usize] = Some(sample);
+        }
+    }
+    Ok(samples.into_iter().flatten().collect())
+}
+
+fn number(x: Option<f64>) -> Cell {
+    x.filter(|x| x.is_finite()).map_or(Cell::Empty, Cell::from)
+}
+
+/// The columns of points: place, point, derivatives up to the given order, normal, curvatures, kind.
+pub fn point_table(places: &[Place], samples: &[Sample], derivatives: usize) -> Table {
+    let mut columns = vec!["face", "sub", "s", "t", "x", "y", "z"];
+    let first = ["xs", "ys", "zs", "xt", "yt", "zt"];
+    let second = ["xss", "yss", "zss", "xst", "yst", "zst", "xtt", "ytt", "ztt"];
+    if derivatives > 0 {
+        columns.extend(first);
+    }
+    if derivatives > 1 {
+        columns.extend(second);
+    }
+    columns.extend(["nx", "ny", "nz", "gauss", "mean", "k1", "k2", "kind"]);
+    let mut table = Table::new(columns);
+    for (place, sample) in places.iter().zip(samples) {
+        let mut row: Vec<Cell> = vec![
+            (place.face as usize).into(),
+            (place.sub as usize).into(),
+            place.s.into(),
+            place.t.into(),
+        ];
+        row.extend(sample.position.iter().map(|&x| Cell::from(x)));
+        if derivatives > 0 {
+            let values = sample.first.iter().flatten().flat_map(|v| v.iter().copied().map(Some));
+            row.extend(values.chain(std::iter::repeat(None)).take(6).map(number));
+        }
+        if derivatives > 1 {
+            let values = sample.second.iter().flatten().flat_map(|v| v.iter().copied().map(Some));
+            row.extend(values.chain(std::iter::repeat(None)).take(9).map(number));
+        }
+        row.extend((0..3).map(|k| number(sample.normal.map(|n| n[k]))));
+        row.extend([sample.gauss, sample.mean, sample.principal.map(|k| k[0]), sample.principal.map(|k| k[1])].map(number));
+        row.push(sample.kind.name().into());
+        table.push(row);
+    }
+    table
+}
+
+/// The columns of vertices: a row for each fan of faces between sharp edges.
+pub fn vertex_table(surface: &Surface<'_>, fans: &[VertexFan]) -> Table {
+    let mut table = Table::new([
+        "vertex", "fan", "faces", "rule", "x", "y", "z", "nx", "ny", "nz", "kind", "gauss_min", "gauss_max", "exponent",
+    ]);
+    let mut next = fans.iter().peekable();
+    for vertex in 0..surface.control().points().len() as u32 {
+        let mut found = false;
+        while let Some(fan) = next.next_if(|fan| fan.vertex == vertex) {
+            found = true;
+            let sample = &fan.sample;
+            let faces: Vec<String> = fan.faces.iter().map(u32::to_string).collect();
+            let mut row: Vec<Cell> = vec![
+                (vertex as usize).into(),
+                (fan.fan as usize).into(),
+                faces.join(" ").into(),
+                fan.rule.name().into(),
+            ];
+            row.extend(sample.position.iter().map(|&x| Cell::from(x)));
+            row.extend((0..3).map(|k| number(sample.normal.map(|n| n[k]))));
+            row.push(sample.kind.name().into());
+            let (low, high, exponent) = match sample.kind {
+                Kind::Bounded { gauss, .. } => (Some(gauss[0]), Some(gauss[1]), None),
+                Kind::Unbounded { exponent, signs } => {
+                    // only the signs are known of what grows without bound
+                    let end = |sign: f64| if sign == 0.0 { Some(0.0) } else { None };
+                    (end(signs[0]), end(signs[1]), Some(exponent))
+                }
+                _ => (sample.gauss, sample.gauss, None),
+            };
+            row.extend([low, high, exponent].map(number));
+            table.push(row);
+        }
+        if !found {
+            // unused vertices keep their number
+            let mut row: Vec<Cell> = vec![(vertex as usize).into()];
+            row.resize(14, Cell::Empty);
+            table.push(row);
+        }
+    }
+    table
+}
+
+/// Reads places: `face,sub,s,t[,corner]`, with or without a header.
+///
+/// # Errors
+/// [`Error::Read`], [`Error::InFile`] with the line.
+pub fn read_places(path: &Path) -> Result<Vec<Place>, Error> {
+    let text = crate::files::read(path)?;
+    let mut places = Vec::new();
+    for (index, line) in text.lines().enumerate() {
+        let cells: Vec<&str> = line.split(',').map(str::trim).collect();
+        if line.trim().is_empty() || (index == 0 && cells[0].parse::<f64>().is_err()) {
+            continue;
+        }
+        let place = || -> Option<Place> {
+            let (&[face, sub, s, t], corner) = match cells.as_slice() {
+                [rest @ .., corner] if rest.len() == 4 => (rest.first_chunk::<4>()?, *corner),
+                rest => (rest.first_chunk::<4>().filter(|_| rest.len() == 4)?, "0"),
+            };
+            Some(Place {
+                face: face.parse().ok()?,
+                sub: sub.parse().ok()?,
+                corner: corner.parse().ok()?,
+                s: s.parse().ok()?,
+                t: t.parse().ok()?,
+            })
+        };
+        places.push(place().ok_or_else(|| {
+            let accepted = Accepted::Are("columns face,sub,s,t and, if wanted, corner".to_owned());
+            Error::refused(format!("line {}: '{line}'", index + 1), accepted).in_file(path)
+        })?);
+    }
+    Ok(places)
+}

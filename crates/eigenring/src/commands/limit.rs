@@ -1,0 +1,84 @@
+//! `eigenring limit`: exact points of a surface.
+
+use super::subdivide::SurfaceArgs;
+use crate::args::{self, Output};
+use crate::error::Error;
+use crate::files;
+use clap::{ArgGroup, Args};
+use eigenring_atlas::limits;
+use eigenring_atlas::schemes::SchemeName;
+use eigenring_atlas::table::Format;
+use eigenring_surface::Surface;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Exact limit points with derivatives, normals and curvature, anywhere on a surface.
+///
+/// Parameters: on a quad s runs along the first edge and t towards the last vertex; other faces consist of
+/// quads around their corners, of which sub is the number. On creases values are those of the face.
+#[derive(Args, Debug)]
+#[command(
+    group = ArgGroup::new("places").required(true).args(["points", "vertices", "per_face"]),
+    after_help = "Examples:\n  eigenring limit spot.obj --scheme catmull-clark --vertices\n  eigenring limit spot.obj --scheme catmull-clark --per-face 4 --derivatives 2 -o samples.csv"
+)]
+pub struct Arguments {
+    /// The control mesh: .obj, .off or .ply
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// The scheme: see 'eigenring --help'
+    #[arg(long, value_name = "SPEC")]
+    scheme: SchemeName,
+    /// A CSV file with columns face,sub,s,t[,corner]
+    #[arg(long, value_name = "P.csv")]
+    points: Option<PathBuf>,
+    /// At all control vertices: one row for each fan of faces between sharp edges
+    #[arg(long)]
+    vertices: bool,
+    /// At the middles of n x n cells of each face
+    #[arg(long, value_name = "n", value_parser = args::count, allow_negative_numbers = true)]
+    per_face: Option<usize>,
+    /// Derivatives up to this order: 0, 1 or 2
+    #[arg(long, value_name = "ORDER", default_value = "0", value_parser = ["0", "1", "2"])]
+    derivatives: String,
+    #[command(flatten)]
+    surface: SurfaceArgs,
+    /// The file to write: .csv or .json
+    #[arg(short, long, value_name = "OUT")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    output: Output,
+}
+
+impl Arguments {
+    pub fn run(self) -> Result<ExitCode, Error> {
+        let mesh = self.surface.mesh(&self.file)?;
+        let rules = self.surface.rules(&self.scheme, &mesh)?;
+        let in_file = |error: eigenring_surface::Error| eigenring_atlas::Error::from(error).in_file(&self.file);
+        let table = self.surface.on_threads(|| -> Result<_, Error> {
+            let surface = Surface::new(&mesh, &rules).map_err(in_file)?;
+            if self.vertices {
+                let fans = surface.vertices().map_err(in_file)?;
+                return Ok(limits::vertex_table(&surface, &fans));
+            }
+            let places = match (&self.points, self.per_face) {
+                (Some(path), _) => limits::read_places(path)?,
+                (None, Some(n)) if n > 0 => surface.grid(n),
+                (None, n) => return Err(Error::range("per-face", n.unwrap_or(0), "1 and above")),
+            };
+            let samples = limits::samples(&surface, &places)?;
+            let derivatives = self.derivatives.parse().unwrap_or(0);
+            Ok(limits::point_table(&places, &samples, derivatives))
+        })??;
+        let format = match self.out.as_deref().and_then(|path| path.extension()) {
+            None => self.output.format(),
+            Some(extension) if extension == "csv" => Format::Csv,
+            Some(extension) if extension == "json" => Format::Json,
+            Some(extension) => {
+                let given = format!("'.{}' is no format of tables", extension.to_string_lossy());
+                return Err(Error::usage(given, "-o FILE.csv or FILE.json"));
+            }
+        };
+        files::emit(self.out.as_deref(), table.render(format).as_bytes())?;
+        Ok(ExitCode::SUCCESS)
+    }
+}

@@ -1,0 +1,420 @@
+//! Evaluation of one face: its refined parts, kept while points are asked for.
+
+pub use super::centre::Undefined;
+use super::centre::{Centre, Ladder, missing, quartered};
+use super::local::{Local, Reach, Source};
+use super::patch::{Jet3, control, jet};
+use super::{Place, Surface};
+use crate::Error;
+use nalgebra::{Point3, Vector3};
+use std::sync::Arc;
+
+/// What the surface is like at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    /// Away from irregular centres, or at a regular one: all derivatives exist.
+    Regular,
+    /// At an irregular centre with curvature zero.
+    Flat,
+    /// At an irregular centre with bounded curvature that depends on the direction: the range of the Gauss and
+    /// the mean curvature.
+    Bounded {
+        /// Least and largest Gauss curvature.
+        gauss: [f64; 2],
+        /// Least and largest mean curvature.
+        mean: [f64; 2],
+    },
+    /// At an irregular centre with curvature that grows without bound, like the distance to this power.
+    Unbounded {
+        /// The power of the distance.
+        exponent: f64,
+        /// The signs of Gauss curvatures around it, least and largest.
+        signs: [f64; 2],
+    },
+    /// At a centre without a normal.
+    Undefined(Undefined),
+}
+
+impl Kind {
+    /// The word for it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Kind::Regular => "regular",
+            Kind::Flat => "flat",
+            Kind::Bounded { .. } => "bounded",
+            Kind::Unbounded { .. } => "unbounded",
+            Kind::Undefined(_) => "not defined",
+        }
+    }
+}
+
+/// A point of the surface. What does not exist is `None`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// The point.
+    pub position: Point3<f64>,
+    /// Derivatives by s and t; at irregular centres none.
+    pub first: Option<[Vector3<f64>; 2]>,
+    /// Derivatives by ss, st, tt.
+    pub second: Option<[Vector3<f64>; 3]>,
+    /// The unit normal, on the side from which faces run counter-clockwise.
+    pub normal: Option<Vector3<f64>>,
+    /// Gauss curvature.
+    pub gauss: Option<f64>,
+    /// Mean curvature, negative on a sphere with outward normal.
+    pub mean: Option<f64>,
+    /// Principal curvatures, the smaller first.
+    pub principal: Option<[f64; 2]>,
+    /// What the surface is like here.
+    pub kind: Kind,
+}
+
+/// Curvatures of a jet.
+pub(crate) struct Curvature {
+    pub normal: Vector3<f64>,
+    pub gauss: f64,
+    pub mean: f64,
+    pub principal: [f64; 2],
+}
+
+pub(crate) fn curvature(first: &[Vector3<f64>; 2], second: &[Vector3<f64>; 3]) -> Option<Curvature> {
+    let [xs, xt] = first;
+    let cross = xs.cross(xt);
+    let area = cross.norm();
+    if !(area > 0.0 && area.is_finite()) {
+        return None;
+    }
+    let normal = cross / area;
+    let [l, m, n] = [0, 1, 2].map(|i| normal.dot(&second[i]));
+    let (e, f, g) = (xs.dot(xs), xs.dot(xt), xt.dot(xt));
+    let square = area * area;
+    let gauss = (l * n - m * m) / square;
+    let mean = (e * n - 2.0 * f * m + g * l) / (2.0 * square);
+    // the second form in the orthonormal basis of the first tangent and its normal in the plane
+    let long = e.sqrt();
+    let (along, beside) = (f / long, area / long);
+    let a = l / e;
+    let mixed = m / long;
+    let b = (mixed - along * a) / beside;
+    let c = (n - 2.0 * along * mixed + along * along * a) / (beside * beside);
+    let spread = ((a - c) / 2.0).hypot(b);
+    Some(Curvature {
+        normal,
+        gauss,
+        mean,
+        principal: [(a + c) / 2.0 - spread, (a + c) / 2.0 + spread],
+    })
+}
+
+/// A part of the face.
+enum Node {
+    Regular(Box<[[f64; 3]; 16]>),
+    /// A centre at a corner.
+    Centre(u32, Arc<Centre>, Box<Ladder>),
+    Inner(Box<Local>, Box<crate::refine::Step>, [Option<Box<Node>>; 4]),
+}
+
+/// Evaluates places of one face.
+pub struct Evaluator<'s, 'r> {
+    surface: &'s Surface<'r>,
+    face: u32,
+    /// By the half-edge of the base from whose corner the part is counted.
+    roots: std::collections::HashMap<u32, Node>,
+}
+
+/// No part of a face needs as many levels to be isolated: sharpness below 10 ends after ten.
+const DEEPEST: usize = 48;
+
+impl<'s, 'r> Evaluator<'s, 'r> {
+    pub(super) fn new(surface: &'s Surface<'r>, face: u32) -> Self {
+        Evaluator {
+            surface,
+            face,
+            roots: std::collections::HashMap::new(),
+        }
+    }
+
+    /// The point at a place of this face.
+    ///
+    /// # Errors
+    /// [`Error::Range`] for parameters outside.
+    pub fn at(&mut self, place: Place) -> Result<Sample, Error> {
+        debug_assert_eq!(place.face, self.face);
+        let (half, s, t, scale) = self.located(place)?;
+        let surface = self.surface;
+        let node = match self.roots.entry(half) {
+            std::collections::hash_map::Entry::Occupied(entry) => entry.into_mut(),
+            std::collections::hash_map::Entry::Vacant(entry) => {
+                let source = Source {
+                    mesh: &surface.base,
+                    topology: &surface.topology,
+                    ends: surface.ends,
+                };
+                let own = |id: u32| surface.rules.vertices().any(|v| v == id).then_some(id);
+                let none = surface.rules.vertices().next().is_none();
+                let local = source.part(half, reach(surface), |id| if none { None } else { own(id) });
+                entry.insert(node(surface, local, DEEPEST)?)
+            }
+        };
+        descend(surface, node, s, t, scale, DEEPEST)
+    }
+
+    /// The half-edge of the base that a place counts from, the parameters there, and how much finer they are.
+    fn located(&self, place: Place) -> Result<(u32, f64, f64, f64), Error> {
+        let control = &self.surface.control;
+        let size = control.face(self.face as usize).len() as u32;
+        let range = |what, given: String, accepted: String| Err(Error::Range { what, given, accepted });
+        for (what, value) in [("s", place.s), ("t", place.t)] {
+            if !(0.0..=1.0).contains(&value) {
+                return range(what, value.to_string(), "0 to 1".to_owned());
+            }
+        }
+        if size == 4 && place.sub != 0 {
+            return range("sub", place.sub.to_string(), "0 on a face with four corners".to_owned());
+        }
+        if size != 4 && place.sub >= size {
+            return range("sub", place.sub.to_string(), format!("0 to {} on this face", size - 1));
+        }
+        if place.corner > 3 {
+            return range("corner", place.corner.to_string(), "0 to 3".to_owned());
+        }
+        let first = control.starts()[self.face as usize];
+        let (mut s, mut t, mut scale) = (place.s, place.t, 1.0);
+        // a half-edge of the control mesh is a face after a level
+        let (mut half, mut levels) = if size == 4 {
+            (first + place.corner, self.surface.lift)
+        } else {
+            (4 * (first + place.sub) + place.corner, self.surface.lift - 1)
+        };
+        while levels > 0 {
+            let (quarter, fine_s, fine_t) = quartered(s, t);
+            (s, t) = (fine_s, fine_t);
+            scale *= 2.0;
+            levels -= 1;
+            // the corner of the quarter, counted from the corner of the place
+            let quarter = quarter as u32;
+            let corner = half / 4 * 4 + (half + quarter) % 4;
+            let corner = if levels + 1 == self.surface.lift { half_of(control, half, quarter) } else { corner };
+            half = 4 * corner + (4 - quarter) % 4;
+        }
+        Ok((half, s, t, scale))
+    }
+}
+
+/// The half-edge of a quad of the control mesh so many corners further on.
+fn half_of(control: &crate::Mesh, half: u32, further: u32) -> u32 {
+    let face = control.starts().partition_point(|&start| start <= half) - 1;
+    let start = control.starts()[face];
+    start + (half - start + further) % 4
+}
+
+fn reach(surface: &Surface<'_>) -> Reach {
+    if surface.rules.reaches_beyond_vertex() { Reach::Two } else { Reach::One }
+}
+
+fn node(surface: &Surface<'_>, local: Local, deepest: usize) -> Result<Node, Error> {
+    let (rules, reach) = (surface.rules, reach(surface));
+    let irregular = local.irregular(rules);
+    if !local.is_soft() {
+        let near = reach == Reach::Two && local.is_near_special(rules);
+        if irregular.is_empty() && !near {
+            let points = local.mesh.points();
+            let combined = |row: &crate::refine::Row| {
+                let mut sum = [0.0; 3];
+                for &(at, w) in row {
+                    (0..3).for_each(|k| sum[k] += w * points[at as usize][k]);
+                }
+                sum
+            };
+            let control = control(&local);
+            return Ok(Node::Regular(Box::new(std::array::from_fn(|i| combined(&control[i])))));
+        }
+        if let &[corner] = irregular.as_slice() {
+            let turned = local.turned(corner, reach);
+            let key = turned.key();
+            let known = surface.centres.lock().ok().and_then(|centres| centres.get(&key).cloned());
+            if let Some(centre) = known {
+                let ladder = Box::new(Ladder::new(&centre, turned.mesh.points()));
+                return Ok(Node::Centre(corner, centre, ladder));
+            }
+            let refined = turned.refined(rules)?;
+            let child = turned.child(&refined, 0, reach).ok_or_else(missing)?;
+            if child.key() == key {
+                let centre = Arc::new(Centre::new(&turned, &refined, &child, rules, reach)?);
+                if let Ok(mut centres) = surface.centres.lock() {
+                    centres.insert(key, Arc::clone(&centre));
+                }
+                let ladder = Box::new(Ladder::new(&centre, turned.mesh.points()));
+                return Ok(Node::Centre(corner, centre, ladder));
+            }
+        }
+    }
+    if deepest == 0 {
+        return Err(missing());
+    }
+    let refined = local.refined(rules)?;
+    Ok(Node::Inner(Box::new(local), Box::new(refined), [None, None, None, None]))
+}
+
+fn descend(
+    surface: &Surface<'_>,
+    at: &mut Node,
+    s: f64,
+    t: f64,
+    scale: f64,
+    deepest: usize,
+) -> Result<Sample, Error> {
+    match at {
+        Node::Regular(points) => Ok(regular(&jet(points, s, t), scale)),
+        Node::Centre(corner, centre, ladder) => Ok(beside(*corner, centre, ladder, s, t, scale)),
+        Node::Inner(local, refined, children) => {
+            let (quarter, s, t) = quartered(s, t);
+            let child = match &mut children[quarter] {
+                Some(child) => child,
+                empty => {
+                    let part = local.child(refined, quarter as u32, reach(surface)).ok_or_else(missing)?;
+                    empty.insert(Box::new(node(surface, part, deepest - 1)?))
+                }
+            };
+            descend(surface, child, s, t, 2.0 * scale, deepest - 1)
+        }
+    }
+}
+
+fn vector(x: &[f64; 3]) -> Vector3<f64> {
+    Vector3::new(x[0], x[1], x[2])
+}
+
+fn regular(jet: &Jet3, scale: f64) -> Sample {
+    let [position, xs, xt, xss, xst, xtt] = jet;
+    let first = [vector(xs), vector(xt)].map(|d| d * scale);
+    let second = [vector(xss), vector(xst), vector(xtt)].map(|d| d * (scale * scale));
+    let curved = curvature(&first, &second);
+    Sample {
+        position: Point3::from(*position),
+        first: Some(first),
+        second: Some(second),
+        normal: curved.as_ref().map(|c| c.normal),
+        gauss: curved.as_ref().map(|c| c.gauss),
+        mean: curved.as_ref().map(|c| c.mean),
+        principal: curved.as_ref().map(|c| c.principal),
+        kind: if curved.is_some() { Kind::Regular } else { Kind::Undefined(Undefined::Degenerate) },
+    }
+}
+
+/// Parameters counted from another corner of the unit square.
+fn turned(corner: u32, s: f64, t: f64) -> (f64, f64) {
+    match corner {
+        0 => (s, t),
+        1 => (t, 1.0 - s),
+        2 => (1.0 - s, 1.0 - t),
+        _ => (1.0 - t, s),
+    }
+}
+
+fn beside(corner: u32, centre: &Centre, ladder: &mut Ladder, s: f64, t: f64, scale: f64) -> Sample {
+    let (mut s, mut t) = turned(corner, s, t);
+    if s == 0.0 && t == 0.0 {
+        return at_centre(centre, ladder);
+    }
+    let mut m = 0;
+    while s < 0.5 && t < 0.5 {
+        (s, t) = (2.0 * s, 2.0 * t);
+        m += 1;
+    }
+    let (quarter, s, t) = quartered(s, t);
+    let (jet, finer) = ladder.jet(centre, m, quarter, s, t);
+    let curved = scaled_curvature(&jet, ladder, m);
+    let shrunk = ladder.lambda.powi(m as i32);
+    let real = |x: &[f64; 3]| -> Vector3<f64> {
+        let [e1, e2, e3] = &ladder.frame;
+        (e1 * x[0] + e2 * x[1] + e3 * (x[2] * shrunk)) * shrunk
+    };
+    let scale = scale * finer * 2_f64.powi(m as i32);
+    let [xs, xt] = [1, 2].map(|i| real(&jet[i]) * scale);
+    let [xss, xst, xtt] = [3, 4, 5].map(|i| real(&jet[i]) * scale * scale);
+    // back to the parameters of the face
+    let (first, second) = match corner {
+        0 => ([xs, xt], [xss, xst, xtt]),
+        1 => ([-xt, xs], [xtt, -xst, xss]),
+        2 => ([-xs, -xt], [xss, xst, xtt]),
+        _ => ([xt, -xs], [xtt, -xst, xss]),
+    };
+    Sample {
+        position: ladder.position + real(&jet[0]),
+        first: Some(first),
+        second: Some(second),
+        normal: curved.as_ref().map(|c| c.normal),
+        gauss: curved.as_ref().map(|c| c.gauss),
+        mean: curved.as_ref().map(|c| c.mean),
+        principal: curved.as_ref().map(|c| c.principal),
+        kind: if curved.is_some() { Kind::Regular } else { Kind::Undefined(Undefined::Degenerate) },
+    }
+}
+
+/// The curvature of a jet in the frame of a ladder: of the surface `(x, y, lambda^m z)`, scaled back.
+pub(super) fn scaled_curvature(jet: &Jet3, ladder: &Ladder, m: usize) -> Option<Curvature> {
+    let shrunk = ladder.lambda.powi(m as i32);
+    let flat = |x: &[f64; 3]| Vector3::new(x[0], x[1], x[2] * shrunk);
+    let first = [flat(&jet[1]), flat(&jet[2])];
+    let second = [flat(&jet[3]), flat(&jet[4]), flat(&jet[5])];
+    let curved = curvature(&first, &second)?;
+    let [e1, e2, e3] = &ladder.frame;
+    let n = curved.normal;
+    Some(Curvature {
+        normal: (e1 * n.x + e2 * n.y + e3 * n.z).normalize(),
+        gauss: curved.gauss / shrunk / shrunk,
+        mean: curved.mean / shrunk,
+        principal: curved.principal.map(|k| k / shrunk),
+    })
+}
+
+/// The level at which curvature around a centre is looked at: all eigenvalues but the largest have died out
+/// there, and nothing has underflown.
+const DEEP: usize = 40;
+
+fn at_centre(centre: &Centre, ladder: &mut Ladder) -> Sample {
+    let kind = kind_at_centre(centre, ladder);
+    let flat = kind == Kind::Flat;
+    Sample {
+        position: ladder.position,
+        first: None,
+        second: None,
+        normal: ladder.tangents.is_ok().then_some(ladder.frame[2]),
+        gauss: flat.then_some(0.0),
+        mean: flat.then_some(0.0),
+        principal: flat.then_some([0.0; 2]),
+        kind,
+    }
+}
+
+fn kind_at_centre(centre: &Centre, ladder: &mut Ladder) -> Kind {
+    if let Err(why) = ladder.tangents {
+        return Kind::Undefined(why);
+    }
+    let heights: Vec<f64> = ladder.points(centre, 0).iter().map(|p| p[2]).collect();
+    let Some(mu) = centre.second_modulus(&heights) else {
+        return Kind::Flat;
+    };
+    let square = ladder.lambda * ladder.lambda;
+    if mu < square * (1.0 - 1e-7) {
+        return Kind::Flat;
+    }
+    let (mut gauss, mut mean) = ([f64::INFINITY, f64::NEG_INFINITY], [f64::INFINITY, f64::NEG_INFINITY]);
+    for quarter in 1..4 {
+        for (i, j) in (0..5).flat_map(|i| (0..5).map(move |j| (i, j))) {
+            let (jet, _) = ladder.jet(centre, DEEP, quarter, f64::from(i) / 4.0, f64::from(j) / 4.0);
+            if let Some(curved) = scaled_curvature(&jet, ladder, DEEP) {
+                gauss = [gauss[0].min(curved.gauss), gauss[1].max(curved.gauss)];
+                mean = [mean[0].min(curved.mean), mean[1].max(curved.mean)];
+            }
+        }
+    }
+    if mu > square * (1.0 + 1e-7) {
+        return Kind::Unbounded {
+            exponent: 2.0 * mu.ln() / ladder.lambda.ln() - 4.0,
+            signs: gauss.map(f64::signum),
+        };
+    }
+    Kind::Bounded { gauss, mean }
+}

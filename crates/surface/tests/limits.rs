@@ -1,0 +1,137 @@
+//! Limit points, derivatives, normals and curvature of Catmull-Clark against independent evaluations:
+//! OpenSubdiv's patches outside of their end caps, and refinement in 50 digits beside irregular vertices.
+//!
+//! Tolerances are ten times the errors that the reference states: at depth d of isolation first derivatives
+//! are off by 1e-15 2^d, second ones by 1e-15 4^d, and curvatures by what follows from that.
+
+mod common;
+
+use common::{json, load, own, rules, shared};
+use eigenring_surface::limit::{Kind, Place, Surface};
+use eigenring_surface::{Mesh, Vector3};
+use serde_json::Value;
+use std::path::Path;
+
+fn vector(value: &Value) -> Vector3<f64> {
+    Vector3::new(value[0].as_f64().unwrap(), value[1].as_f64().unwrap(), value[2].as_f64().unwrap())
+}
+
+struct Worst(Vec<String>, usize);
+
+impl Worst {
+    fn check(&mut self, label: impl Fn() -> String, error: f64, tolerance: f64) {
+        self.1 += 1;
+        if !(error <= tolerance) {
+            self.0.push(format!("{}: off by {error:.1e}, allowed {tolerance:.1e}", label()));
+        }
+    }
+}
+
+fn compare(mesh: &Mesh, case: &Value, worst: &mut Worst) {
+    let rules = rules("catmull-clark");
+    let surface = Surface::new(mesh, &rules).unwrap();
+    let shape = case["shape"].as_str().unwrap();
+    let fans = surface.vertices().unwrap();
+    for vertex in case["control_vertices"].as_array().unwrap() {
+        let number = vertex["vertex"].as_u64().unwrap() as u32;
+        let label = || format!("{shape} vertex {number}");
+        let expected = vertex["fans"].as_array().unwrap();
+        let found: Vec<_> = fans.iter().filter(|fan| fan.vertex == number).collect();
+        assert_eq!(found.len(), expected.len(), "{}", label());
+        for fan in &found {
+            assert_eq!(fan.rule.name(), vertex["rule"].as_str().unwrap(), "{}", label());
+            let off = (fan.sample.position.coords - vector(&vertex["position"])).norm();
+            worst.check(label, off, 1e-12);
+        }
+        for expected in expected {
+            let sorted = |list: Vec<u64>| {
+                let mut list = list;
+                list.sort_unstable();
+                list
+            };
+            let faces = sorted(expected["faces"].as_array().unwrap().iter().map(|f| f.as_u64().unwrap()).collect());
+            let fan = found.iter().find(|fan| sorted(fan.faces.iter().map(|&f| u64::from(f)).collect()) == faces);
+            let fan = fan.unwrap_or_else(|| panic!("{}: no fan {faces:?}", label()));
+            match (&fan.sample.normal, expected["normal"].is_null()) {
+                (None, true) => assert!(matches!(fan.sample.kind, Kind::Undefined(_))),
+                (Some(normal), false) => worst.check(label, (normal - vector(&expected["normal"])).norm(), 1e-10),
+                (found, _) => worst.0.push(format!(
+                    "{} {faces:?}: normal {found:?} ({:?}), expected {}",
+                    label(),
+                    fan.sample.kind,
+                    expected["normal"]
+                )),
+            }
+        }
+    }
+    for (index, sample) in case["samples"].as_array().unwrap().iter().enumerate() {
+        let number = |name: &str| sample[name].as_f64().unwrap();
+        let place = Place {
+            face: number("face") as u32,
+            sub: number("sub") as u32,
+            corner: 0,
+            s: number("s"),
+            t: number("t"),
+        };
+        let found = surface.at(place).unwrap_or_else(|error| panic!("{shape} sample {index}: {error}"));
+        let label = |what: &'static str| move || format!("{shape} sample {index} {what}");
+        let depth = number("depth");
+        let (two, four) = (2_f64.powf(depth), 4_f64.powf(depth));
+        let values: Vec<Vector3<f64>> = sample["values"].as_array().unwrap().iter().map(vector).collect();
+        let size = values.iter().map(|v| v.norm()).fold(1.0, f64::max);
+        worst.check(label("position"), (found.position.coords - values[0]).norm(), 1e-12);
+        let (first, second) = (found.first.unwrap(), found.second.unwrap());
+        let printed = 1e-14;
+        for i in 0..2 {
+            let tolerance = 1e-14 * two + printed * size;
+            worst.check(label("first"), (first[i] - values[i + 1]).norm(), tolerance);
+        }
+        for i in 0..3 {
+            let tolerance = 1e-14 * four + printed * size;
+            worst.check(label("second"), (second[i] - values[i + 3]).norm(), tolerance);
+        }
+        let (e, f, g) = (
+            values[1].norm_squared(),
+            values[1].dot(&values[2]),
+            values[2].norm_squared(),
+        );
+        let mu = (e + g) / 2.0 - ((e - g) / 2.0).hypot(f);
+        let delta = 1e-15 * four / mu + 1e-14;
+        let normal = vector(&sample["normal"]);
+        let tolerance = f64::max(1e-14 * two / mu.sqrt(), 1e-13);
+        worst.check(label("normal"), (found.normal.unwrap() - normal).norm(), tolerance.min(1e-10));
+        let (gauss, mean) = (number("gauss"), number("mean"));
+        let root = (mean * mean - gauss).max(0.0).sqrt();
+        let tolerance = 10.0 * (2.0 * delta + 1e-14 * mean.abs());
+        worst.check(label("mean"), (found.mean.unwrap() - mean).abs(), tolerance);
+        let tolerance = 10.0 * (2.0 * delta * (mean.abs() + root) + delta * delta + 1e-14 * gauss.abs());
+        worst.check(label("gauss"), (found.gauss.unwrap() - gauss).abs(), tolerance);
+    }
+}
+
+fn all(limits: &Path, shapes: &Path) {
+    let mut worst = Worst(Vec::new(), 0);
+    let mut count = 0;
+    let mut paths: Vec<_> = std::fs::read_dir(limits).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    for path in paths.iter().filter(|path| path.extension().is_some_and(|e| e == "json")) {
+        let case = json(path);
+        let name = format!("{}.obj", case["shape"].as_str().unwrap());
+        let beside = limits.join(&name);
+        let path = if beside.exists() { beside } else { shapes.join(&name) };
+        let mut mesh = load(&path);
+        mesh.features = mesh.features.in_single_precision();
+        compare(&mesh, &case, &mut worst);
+        count += 1;
+    }
+    assert!(count > 0 && worst.1 > 100);
+    assert!(worst.0.is_empty(), "{} of {} differ:\n{}", worst.0.len(), worst.1, worst.0[..worst.0.len().min(40)].join("\n"));
+}
+
+#[test]
+fn limits_of_independent_evaluations() {
+    all(&own("limits"), &own("opensubdiv"));
+    if let (Some(limits), Some(shapes)) = (shared("reference/limits"), shared("data/opensubdiv")) {
+        all(&limits, &shapes);
+    }
+}
