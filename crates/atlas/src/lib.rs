@@ -32,7 +32,7 @@
 //! | [`stencil`], [`tune`] | one member of the lambda-scheme; the best one |
 //! | [`certificates`], [`report`] | what is certified, checked again, summed up and printed |
 //! | [`curve`] | curves and surfaces of revolution |
-//! | [`meshes`], [`limits`] | limit points as tables; mesh files, the rules of a scheme on a mesh, refinement |
+//! | [`meshes`], [`limits`], [`curvature`] | limit points as tables; mesh files, the rules of a scheme on a mesh, refinement |
 //! | [`run`], [`results`], [`tension`] | the studies behind `results/`, and its files as text |
 //! | [`figures`] | pictures with the tables of what they show |
 //! | [`index`], [`difference`] | what makes and checks `results/`, and comparing its files number by number |
@@ -49,6 +49,7 @@
 pub mod cache;
 pub mod certificates;
 pub mod compare;
+pub mod curvature;
 pub mod curve;
 pub mod difference;
 mod error;

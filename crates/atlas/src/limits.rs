@@ -1,7 +1,7 @@
 //! Limit points of surfaces as tables: at places, at vertices, on grids.
 
 use crate::error::{Accepted, Error};
-use crate::table::{Cell, Table};
+use crate::table::{Cell, Format, Table};
 use eigenring_surface::limit::{Kind, Place, Sample, Surface, VertexFan};
 use rayon::prelude::*;
 use std::path::Path;
@@ -71,6 +71,25 @@ pub fn point_table(places: &[Place], samples: &[Sample], derivatives: usize) -> 
         table.push(row);
     }
     table
+}
+
+/// The table of points as CSV, in full precision, for millions of them: rows are printed in parallel.
+pub fn point_csv(places: &[Place], samples: &[Sample], derivatives: usize) -> String {
+    const AT_ONCE: usize = 4096;
+    let parts: Vec<String> = places
+        .par_chunks(AT_ONCE)
+        .zip(samples.par_chunks(AT_ONCE))
+        .enumerate()
+        .map(|(index, (places, samples))| {
+            let text = point_table(places, samples, derivatives).render(Format::Csv);
+            if index == 0 {
+                return text;
+            }
+            // the header is there once
+            text.split_once('\n').map_or(String::new(), |(_, rows)| rows.to_owned())
+        })
+        .collect();
+    if parts.is_empty() { point_table(&[], &[], derivatives).render(Format::Csv) } else { parts.concat() }
 }
 
 /// The columns of vertices: a row for each fan of faces between sharp edges.

@@ -105,7 +105,7 @@ fn remarks(mesh: &Mesh) -> Vec<String> {
 
 /// What a file holds, in the fields of `eigenring mesh`. Fields that a mesh with defects does not have are
 /// null.
-pub fn facts(file: &MeshFile) -> Map<String, Value> {
+pub fn facts(file: &MeshFile) -> Fields {
     let mesh = &file.mesh;
     let sizes = |counts: &BTreeMap<usize, usize>| -> Value {
         counts.iter().map(|(size, count)| (size.to_string(), json!(count))).collect::<Map<_, _>>().into()
@@ -116,8 +116,8 @@ pub fn facts(file: &MeshFile) -> Map<String, Value> {
         .map(|(defect, line)| json!({ "kind": defect.kind.name(), "element": defect.element.to_string(), "line": line }))
         .collect();
     let facts = Topology::new(mesh).ok().map(|topology| Facts::of(mesh, &topology));
-    let mut fields = Map::new();
-    let mut put = |name: &str, value: Value| fields.insert(name.to_owned(), value);
+    let mut fields = Fields::default();
+    let mut put = |name, value: Value| fields.0.push((name, value));
     let edges: BTreeSet<[u32; 2]> = mesh
         .faces()
         .flat_map(|face| face.iter().zip(face.iter().cycle().skip(1)))
@@ -151,7 +151,7 @@ pub fn facts(file: &MeshFile) -> Map<String, Value> {
 }
 
 /// What a refined mesh is, in the fields of `eigenring subdivide`.
-pub fn summary(mesh: &Mesh, levels: usize) -> Map<String, Value> {
+pub fn summary(mesh: &Mesh, levels: usize) -> Fields {
     let sizes: Map<String, Value> = mesh
         .faces_by_size()
         .into_iter()
@@ -160,34 +160,43 @@ pub fn summary(mesh: &Mesh, levels: usize) -> Map<String, Value> {
     let triple = |p: Point3<f64>| json!([p.x, p.y, p.z]);
     let sum = mesh.points().iter().fold(Point3::origin(), |sum: Point3<f64>, point| sum + point.coords);
     let bounds = mesh.bounds().map(|[low, high]| json!([triple(low), triple(high)]));
-    let fields = [
+    Fields(vec![
         ("vertices", json!(mesh.points().len())),
         ("faces", json!(mesh.face_count())),
         ("faces_by_size", Value::Object(sizes)),
         ("levels", json!(levels)),
         ("bounds", json!(bounds)),
         ("position_sum", triple(sum)),
-    ];
-    fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
+    ])
 }
 
-/// Fields for people: names and values below each other.
-pub fn for_people(fields: &Map<String, Value>) -> String {
-    let width = fields.keys().map(String::len).max().unwrap_or(0);
-    let shown = |value: &Value| match value {
-        Value::Null => "-".to_owned(),
-        Value::String(text) => text.clone(),
-        Value::Object(map) => {
-            let pairs: Vec<String> = map.iter().map(|(key, value)| format!("{key}: {value}")).collect();
-            if pairs.is_empty() { "none".to_owned() } else { pairs.join(", ") }
-        }
-        Value::Array(list) if list.is_empty() => "none".to_owned(),
-        other => other.to_string(),
-    };
-    fields
-        .iter()
-        .map(|(name, value)| format!("{name:<width$}  {}\n", shown(value)))
-        .collect()
+/// Named values in an order for people.
+#[derive(Clone, Debug, Default)]
+pub struct Fields(pub Vec<(&'static str, Value)>);
+
+impl Fields {
+    /// One JSON object.
+    pub fn json(&self) -> Value {
+        let pairs = self.0.iter().map(|(name, value)| ((*name).to_owned(), value.clone()));
+        Value::Object(pairs.collect())
+    }
+
+    /// Names and values below each other.
+    pub fn text(&self) -> String {
+        let width = self.0.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+        let shown = |value: &Value| match value {
+            Value::Null => "-".to_owned(),
+            Value::String(text) => text.clone(),
+            Value::Object(map) => {
+                let pairs: Vec<String> = map.iter().map(|(key, value)| format!("{key}: {value}")).collect();
+                if pairs.is_empty() { "none".to_owned() } else { pairs.join(", ") }
+            }
+            Value::Array(list) if list.is_empty() => "none".to_owned(),
+            other => other.to_string(),
+        };
+        let line = |(name, value): &(&str, Value)| format!("{name:<width$}  {}\n", shown(value));
+        self.0.iter().map(line).collect()
+    }
 }
 
 /// The rules of a scheme on a mesh. Members of the lambda-scheme that are not tabulated are tuned;

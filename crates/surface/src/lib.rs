@@ -20,6 +20,8 @@ mod refine;
 mod refiner;
 mod rules;
 pub mod shapes;
+#[cfg(test)]
+mod tests;
 mod topology;
 mod walk;
 mod workers;

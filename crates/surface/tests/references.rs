@@ -5,9 +5,7 @@
 //! CGAL 5.5, whose open meshes shrink. Tension scheme of all orders with features: an independent
 //! implementation. Points are matched as sets, counts and sums over faces beside them.
 
-mod common;
-
-use common::{centroid_sums, distance, json, load, mesh, own, points, rules, shared};
+use crate::common::{centroid_sums, distance, json, load, mesh, own, points, rules, shared};
 use eigenring_surface::{Boundary, Refiner};
 use std::path::Path;
 

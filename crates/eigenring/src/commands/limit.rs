@@ -4,6 +4,7 @@ use super::subdivide::SurfaceArgs;
 use crate::args::{self, Output};
 use crate::error::Error;
 use crate::files;
+use crate::memory;
 use clap::{ArgGroup, Args};
 use eigenring_atlas::limits;
 use eigenring_atlas::schemes::SchemeName;
@@ -45,6 +46,9 @@ pub struct Arguments {
     /// The file to write: .csv or .json
     #[arg(short, long, value_name = "OUT")]
     out: Option<PathBuf>,
+    /// Run although the result may not fit into memory
+    #[arg(long)]
+    force: bool,
     #[command(flatten)]
     output: Output,
 }
@@ -54,21 +58,6 @@ impl Arguments {
         let mesh = self.surface.mesh(&self.file)?;
         let rules = self.surface.rules(&self.scheme, &mesh)?;
         let in_file = |error: eigenring_surface::Error| eigenring_atlas::Error::from(error).in_file(&self.file);
-        let table = self.surface.on_threads(|| -> Result<_, Error> {
-            let surface = Surface::new(&mesh, &rules).map_err(in_file)?;
-            if self.vertices {
-                let fans = surface.vertices().map_err(in_file)?;
-                return Ok(limits::vertex_table(&surface, &fans));
-            }
-            let places = match (&self.points, self.per_face) {
-                (Some(path), _) => limits::read_places(path)?,
-                (None, Some(n)) if n > 0 => surface.grid(n),
-                (None, n) => return Err(Error::range("per-face", n.unwrap_or(0), "1 and above")),
-            };
-            let samples = limits::samples(&surface, &places)?;
-            let derivatives = self.derivatives.parse().unwrap_or(0);
-            Ok(limits::point_table(&places, &samples, derivatives))
-        })??;
         let format = match self.out.as_deref().and_then(|path| path.extension()) {
             None => self.output.format(),
             Some(extension) if extension == "csv" => Format::Csv,
@@ -78,7 +67,30 @@ impl Arguments {
                 return Err(Error::usage(given, "-o FILE.csv or FILE.json"));
             }
         };
-        files::emit(self.out.as_deref(), table.render(format).as_bytes())?;
+        let text = self.surface.on_threads(|| -> Result<String, Error> {
+            let surface = Surface::new(&mesh, &rules).map_err(in_file)?;
+            if self.vertices {
+                let fans = surface.vertices().map_err(in_file)?;
+                return Ok(limits::vertex_table(&surface, &fans).render(format));
+            }
+            let places = match (&self.points, self.per_face) {
+                (Some(path), _) => limits::read_places(path)?,
+                (None, Some(n)) if n > 0 => {
+                    let count = mesh.face_count() as f64 * (n * n) as f64;
+                    // a place, its sample and its row as text
+                    memory::check(count * 1000.0, self.force, &format!("{count} points"))?;
+                    surface.grid(n)
+                }
+                (None, n) => return Err(Error::range("per-face", n.unwrap_or(0), "1 and above")),
+            };
+            let samples = limits::samples(&surface, &places)?;
+            let derivatives = self.derivatives.parse().unwrap_or(0);
+            Ok(match format {
+                Format::Csv => limits::point_csv(&places, &samples, derivatives),
+                format => limits::point_table(&places, &samples, derivatives).render(format),
+            })
+        })??;
+        files::emit(self.out.as_deref(), text.as_bytes())?;
         Ok(ExitCode::SUCCESS)
     }
 }

@@ -7,7 +7,6 @@ use crate::progress::note;
 use clap::Args;
 use eigenring_atlas::meshes;
 use eigenring_atlas::table::{Format, pretty};
-use serde_json::Value;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -51,8 +50,8 @@ impl Arguments {
         }
         let fields = meshes::facts(&file);
         let printed = match self.output.format() {
-            Format::Json => pretty(&Value::Object(fields)),
-            Format::Text => meshes::for_people(&fields),
+            Format::Json => pretty(&fields.json()),
+            Format::Text => fields.text(),
             Format::Csv | Format::Latex => {
                 return Err(Error::usage("a mesh is described in fields", "--format text or json"));
             }

@@ -2,8 +2,10 @@
 
 mod compare;
 mod completions;
+mod curvature;
 mod curve;
 mod limit;
+mod make;
 mod matrix;
 mod mesh;
 mod objective;
@@ -53,6 +55,8 @@ enum Command {
     Mesh(mesh::Arguments),
     Subdivide(subdivide::Arguments),
     Limit(limit::Arguments),
+    Make(make::Arguments),
+    Curvature(curvature::Arguments),
     Plot(plot::Arguments),
     Reproduce(reproduce::Arguments),
     Completions(completions::Arguments),
@@ -75,6 +79,8 @@ impl Cli {
             Command::Mesh(arguments) => arguments.run(),
             Command::Subdivide(arguments) => arguments.run(),
             Command::Limit(arguments) => arguments.run(),
+            Command::Make(arguments) => arguments.run(),
+            Command::Curvature(arguments) => arguments.run(),
             Command::Plot(arguments) => arguments.run(),
             Command::Reproduce(arguments) => arguments.run(),
             Command::Completions(arguments) => arguments.run(),

@@ -10,7 +10,6 @@ use eigenring_atlas::meshes::{self, Pool};
 use eigenring_atlas::schemes::SchemeName;
 use eigenring_atlas::table::{Format, pretty};
 use eigenring_surface::{Boundary, Mesh, Refiner};
-use serde_json::Value;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -144,8 +143,8 @@ impl Arguments {
         }
         let fields = meshes::summary(&refined, self.levels);
         let mut printed = match output {
-            Format::Json => pretty(&Value::Object(fields)),
-            _ => meshes::for_people(&fields),
+            Format::Json => pretty(&fields.json()),
+            _ => fields.text(),
         };
         if let (Some(path), Format::Text) = (&self.out, output) {
             printed.push_str(&format!("wrote {}\n", path.display()));

@@ -72,8 +72,6 @@ pub(crate) struct Centre {
     pub pair: Result<Pair, Undefined>,
     /// The quarters at the second, third and last corner.
     pub annulus: [Annulus; 3],
-    /// The moduli of all eigenvalues, falling, each as often as it occurs; empty if not known.
-    pub eigenvalues: Vec<f64>,
 }
 
 /// The row of a refined point over the points before.
@@ -141,13 +139,11 @@ impl Centre {
             let rows: Vec<Row> = quarter.ids.iter().map(|&id| composed(refined, id)).collect();
             quarters.push(annulus(&quarter, &rows, rules, reach, 2)?);
         }
-        let (pair, eigenvalues) = pair(&matrix, &local.topology)?;
         Ok(Centre {
+            pair: pair(&matrix, &local.topology)?,
             limit: limit(&matrix),
             matrix,
-            pair,
             annulus: quarters.try_into().map_err(|_| missing())?,
-            eigenvalues,
         })
     }
 
@@ -214,18 +210,15 @@ fn limit(matrix: &[Row]) -> Vec<f64> {
     weights.iter().map(|w| w / sum).collect()
 }
 
-type Found = (Result<Pair, Undefined>, Vec<f64>);
-
-fn pair(matrix: &[Row], topology: &Topology) -> Result<Found, Error> {
+fn pair(matrix: &[Row], topology: &Topology) -> Result<Result<Pair, Undefined>, Error> {
     if matrix.len() > MOST {
-        return Ok((Err(Undefined::TooLarge), Vec::new()));
+        return Ok(Err(Undefined::TooLarge));
     }
     let block = block(matrix);
     let found = block.eigenvalues()?;
     let modulus = |value: (f64, f64)| value.0.hypot(value.1);
     let all: Vec<(f64, f64)> = found.iter().flat_map(|e| std::iter::repeat_n(e.value, e.multiplicity)).collect();
-    let moduli: Vec<f64> = all.iter().map(|&value| modulus(value)).collect();
-    let refuse = |why| Ok((Err(why), moduli.clone()));
+    let refuse = |why| Ok(Err(why));
     let [one, first, second, rest @ ..] = all.as_slice() else {
         return refuse(Undefined::NotDominant);
     };
@@ -287,12 +280,11 @@ fn pair(matrix: &[Row], topology: &Topology) -> Result<Found, Error> {
         right.iter_mut().for_each(|r| r[1] = -r[1]);
         left[1].iter_mut().for_each(|l| *l = -*l);
     }
-    let pair = Pair {
+    Ok(Ok(Pair {
         lambda: [first.0, second.0],
         right,
         left,
-    };
-    Ok((Ok(pair), moduli))
+    }))
 }
 
 /// The control points of a face beside a centre, level by level.
