@@ -125,17 +125,25 @@ pub fn curvatures(surface: &Surface<'_>, per_face: usize, euler: Option<i64>) ->
     let places = surface.grid(per_face);
     let samples = crate::limits::samples(surface, &places)?;
     let extremes = |value: fn(&Sample) -> Option<f64>| {
-        let values = places.iter().zip(&samples).filter_map(|(place, sample)| Some((value(sample)?, *place)));
+        let values = places
+            .iter()
+            .zip(&samples)
+            .filter_map(|(place, sample)| Some((value(sample)?, *place)));
         let all: Vec<(f64, Place)> = values.collect();
         let least = all.iter().copied().min_by(|a, b| a.0.total_cmp(&b.0))?;
         let greatest = all.iter().copied().max_by(|a, b| a.0.total_cmp(&b.0))?;
         Some(Extremes { least, greatest })
     };
     let fans = surface.vertices()?;
-    let centres = fans.into_iter().filter(|fan| fan.sample.kind != Kind::Regular).collect();
+    let centres = fans
+        .into_iter()
+        .filter(|fan| fan.sample.kind != Kind::Regular)
+        .collect();
     Ok(Curvatures {
         totals,
-        extremes: extremes(|sample| sample.gauss).zip(extremes(|sample| sample.mean)).map(|(a, b)| [a, b]),
+        extremes: extremes(|sample| sample.gauss)
+            .zip(extremes(|sample| sample.mean))
+            .map(|(a, b)| [a, b]),
         expected: euler.map(|euler| std::f64::consts::TAU * euler as f64),
         centres,
     })
@@ -146,7 +154,9 @@ pub fn curvatures(surface: &Surface<'_>, per_face: usize, euler: Option<i64>) ->
 /// # Errors
 /// Those of [`Surface::at`].
 pub fn centre_table(surface: &Surface<'_>, found: &Curvatures, radii: &[f64]) -> Result<Table, Error> {
-    let mut columns: Vec<String> = ["vertex", "fan", "faces", "rule", "kind", "exponent"].map(str::to_owned).to_vec();
+    let mut columns: Vec<String> = ["vertex", "fan", "faces", "rule", "kind", "exponent"]
+        .map(str::to_owned)
+        .to_vec();
     for radius in radii {
         columns.extend([format!("gauss_min@{radius:e}"), format!("gauss_max@{radius:e}")]);
     }

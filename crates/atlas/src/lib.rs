@@ -33,6 +33,7 @@
 //! | [`certificates`], [`report`] | what is certified, checked again, summed up and printed |
 //! | [`curve`] | curves and surfaces of revolution |
 //! | [`meshes`], [`limits`], [`curvature`] | limit points as tables; mesh files, the rules of a scheme on a mesh, refinement |
+//! | [`render`] | pictures of surfaces |
 //! | [`run`], [`results`], [`tension`] | the studies behind `results/`, and its files as text |
 //! | [`figures`] | pictures with the tables of what they show |
 //! | [`index`], [`difference`] | what makes and checks `results/`, and comparing its files number by number |
@@ -60,6 +61,7 @@ pub mod limits;
 pub mod matrix;
 pub mod meshes;
 pub mod progress;
+pub mod render;
 pub mod report;
 pub mod results;
 pub mod run;

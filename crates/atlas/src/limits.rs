@@ -20,7 +20,10 @@ pub fn samples(surface: &Surface<'_>, places: &[Place]) -> Result<Vec<Sample>, E
         .par_iter()
         .map(|group| {
             let mut evaluator = surface.evaluator(places[group[0] as usize].face)?;
-            group.iter().map(|&index| evaluator.at(places[index as usize])).collect()
+            group
+                .iter()
+                .map(|&index| evaluator.at(places[index as usize]))
+                .collect()
         })
         .collect();
     let mut samples = vec![None; places.len()];
@@ -66,7 +69,15 @@ pub fn point_table(places: &[Place], samples: &[Sample], derivatives: usize) -> 
             row.extend(values.chain(std::iter::repeat(None)).take(9).map(number));
         }
         row.extend((0..3).map(|k| number(sample.normal.map(|n| n[k]))));
-        row.extend([sample.gauss, sample.mean, sample.principal.map(|k| k[0]), sample.principal.map(|k| k[1])].map(number));
+        row.extend(
+            [
+                sample.gauss,
+                sample.mean,
+                sample.principal.map(|k| k[0]),
+                sample.principal.map(|k| k[1]),
+            ]
+            .map(number),
+        );
         row.push(sample.kind.name().into());
         table.push(row);
     }
@@ -89,13 +100,30 @@ pub fn point_csv(places: &[Place], samples: &[Sample], derivatives: usize) -> St
             text.split_once('\n').map_or(String::new(), |(_, rows)| rows.to_owned())
         })
         .collect();
-    if parts.is_empty() { point_table(&[], &[], derivatives).render(Format::Csv) } else { parts.concat() }
+    if parts.is_empty() {
+        point_table(&[], &[], derivatives).render(Format::Csv)
+    } else {
+        parts.concat()
+    }
 }
 
 /// The columns of vertices: a row for each fan of faces between sharp edges.
 pub fn vertex_table(surface: &Surface<'_>, fans: &[VertexFan]) -> Table {
     let mut table = Table::new([
-        "vertex", "fan", "faces", "rule", "x", "y", "z", "nx", "ny", "nz", "kind", "gauss_min", "gauss_max", "exponent",
+        "vertex",
+        "fan",
+        "faces",
+        "rule",
+        "x",
+        "y",
+        "z",
+        "nx",
+        "ny",
+        "nz",
+        "kind",
+        "gauss_min",
+        "gauss_max",
+        "exponent",
     ]);
     let mut next = fans.iter().peekable();
     for vertex in 0..surface.control().points().len() as u32 {

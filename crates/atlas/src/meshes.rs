@@ -17,17 +17,28 @@ pub struct Pool;
 
 impl Workers for Pool {
     fn points(&self, parts: Vec<&mut [Point3<f64>]>, work: &(dyn Fn(usize, &mut [Point3<f64>]) + Sync)) {
-        parts.into_par_iter().enumerate().for_each(|(index, part)| work(index, part));
+        parts
+            .into_par_iter()
+            .enumerate()
+            .for_each(|(index, part)| work(index, part));
     }
 
     fn indices(&self, parts: Vec<&mut [u32]>, work: &(dyn Fn(usize, &mut [u32]) + Sync)) {
-        parts.into_par_iter().enumerate().for_each(|(index, part)| work(index, part));
+        parts
+            .into_par_iter()
+            .enumerate()
+            .for_each(|(index, part)| work(index, part));
     }
 }
 
 fn format_of(path: &Path, accepted: &'static str, fits: impl Fn(Format) -> bool) -> Result<Format, Error> {
-    let extension = path.extension().map(|extension| extension.to_string_lossy().into_owned());
-    let format = extension.as_deref().and_then(Format::of_extension).filter(|&format| fits(format));
+    let extension = path
+        .extension()
+        .map(|extension| extension.to_string_lossy().into_owned());
+    let format = extension
+        .as_deref()
+        .and_then(Format::of_extension)
+        .filter(|&format| fits(format));
     format.ok_or_else(|| {
         let what = match extension {
             Some(extension) => format!("'.{extension}' is no mesh format here"),
@@ -86,11 +97,17 @@ fn remarks(mesh: &Mesh) -> Vec<String> {
     let unused = mesh.unused();
     if let Some(first) = unused.first() {
         let more = unused.len() - 1;
-        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+        let more = if more > 0 {
+            format!(" and {more} more")
+        } else {
+            String::new()
+        };
         remarks.push(format!("vertex {first}{more} belongs to no face and is left out"));
     }
     let valences = topology.valences();
-    let two = valences.iter().position(|&(valence, boundary)| valence == 2 && !boundary);
+    let two = valences
+        .iter()
+        .position(|&(valence, boundary)| valence == 2 && !boundary);
     if let Some(vertex) = two {
         remarks.push(format!(
             "inner vertex {vertex} has valence 2: its point is computed, but the surface has no normal there"
@@ -108,12 +125,18 @@ fn remarks(mesh: &Mesh) -> Vec<String> {
 pub fn facts(file: &MeshFile) -> Fields {
     let mesh = &file.mesh;
     let sizes = |counts: &BTreeMap<usize, usize>| -> Value {
-        counts.iter().map(|(size, count)| (size.to_string(), json!(count))).collect::<Map<_, _>>().into()
+        counts
+            .iter()
+            .map(|(size, count)| (size.to_string(), json!(count)))
+            .collect::<Map<_, _>>()
+            .into()
     };
     let defects = file.defects();
     let listed: Vec<Value> = defects
         .iter()
-        .map(|(defect, line)| json!({ "kind": defect.kind.name(), "element": defect.element.to_string(), "line": line }))
+        .map(
+            |(defect, line)| json!({ "kind": defect.kind.name(), "element": defect.element.to_string(), "line": line }),
+        )
         .collect();
     let facts = Topology::new(mesh).ok().map(|topology| Facts::of(mesh, &topology));
     let mut fields = Fields::default();
@@ -131,9 +154,15 @@ pub fn facts(file: &MeshFile) -> Fields {
     put("genus", json!(facts.as_ref().map(|f| f.genus)));
     put("components", json!(facts.as_ref().map(|f| f.components)));
     put("boundary_loops", json!(facts.as_ref().map(|f| f.boundary_loops.len())));
-    put("boundary_lengths", json!(facts.as_ref().map(|f| f.boundary_loops.clone())));
+    put(
+        "boundary_lengths",
+        json!(facts.as_ref().map(|f| f.boundary_loops.clone())),
+    );
     put("valences", facts.as_ref().map_or(Value::Null, |f| sizes(&f.valences)));
-    put("boundary_valences", facts.as_ref().map_or(Value::Null, |f| sizes(&f.boundary_valences)));
+    put(
+        "boundary_valences",
+        facts.as_ref().map_or(Value::Null, |f| sizes(&f.boundary_valences)),
+    );
     let features = facts.as_ref().map_or(Value::Null, |f| {
         json!({
             "sharp_edges": f.features.sharp_edges,
@@ -158,7 +187,10 @@ pub fn summary(mesh: &Mesh, levels: usize) -> Fields {
         .map(|(size, count)| (size.to_string(), json!(count)))
         .collect();
     let triple = |p: Point3<f64>| json!([p.x, p.y, p.z]);
-    let sum = mesh.points().iter().fold(Point3::origin(), |sum: Point3<f64>, point| sum + point.coords);
+    let sum = mesh
+        .points()
+        .iter()
+        .fold(Point3::origin(), |sum: Point3<f64>, point| sum + point.coords);
     let bounds = mesh.bounds().map(|[low, high]| json!([triple(low), triple(high)]));
     Fields(vec![
         ("vertices", json!(mesh.points().len())),
@@ -189,7 +221,11 @@ impl Fields {
             Value::String(text) => text.clone(),
             Value::Object(map) => {
                 let pairs: Vec<String> = map.iter().map(|(key, value)| format!("{key}: {value}")).collect();
-                if pairs.is_empty() { "none".to_owned() } else { pairs.join(", ") }
+                if pairs.is_empty() {
+                    "none".to_owned()
+                } else {
+                    pairs.join(", ")
+                }
             }
             Value::Array(list) if list.is_empty() => "none".to_owned(),
             other => other.to_string(),
@@ -229,7 +265,10 @@ pub fn rules(name: &SchemeName, mesh: &Mesh, lambdas: &[(u32, f64)], tuner: &Tun
     };
     let valences = Topology::unchecked_valences(mesh);
     let faces = mesh.faces_by_size().into_keys();
-    let inner = valences.iter().filter(|(valence, boundary)| !boundary && *valence > 2).map(|(valence, _)| *valence);
+    let inner = valences
+        .iter()
+        .filter(|(valence, boundary)| !boundary && *valence > 2)
+        .map(|(valence, _)| *valence);
     let irregular: BTreeSet<usize> = inner.chain(faces).filter(|&n| n != 4).collect();
     if !weighted {
         for valence in irregular {

@@ -16,7 +16,10 @@ fn threads_change_no_bit() {
         refiner.workers = &Pool;
         for threads in [1, 2, 8] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            assert!(pool.install(|| refiner.refined(&control, 5).unwrap()) == expected, "{spec} {threads}");
+            assert!(
+                pool.install(|| refiner.refined(&control, 5).unwrap()) == expected,
+                "{spec} {threads}"
+            );
         }
         if spec == "doo-sabin" {
             continue;
@@ -28,7 +31,10 @@ fn threads_change_no_bit() {
             // a surface of its own, so that nothing is remembered from the run before
             let fresh = Surface::new(&control, &rules).unwrap();
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            assert!(pool.install(|| samples(&fresh, &places).unwrap()) == expected, "{spec} {threads}");
+            assert!(
+                pool.install(|| samples(&fresh, &places).unwrap()) == expected,
+                "{spec} {threads}"
+            );
         }
     }
 }

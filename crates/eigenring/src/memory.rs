@@ -23,7 +23,11 @@ pub fn check(bytes: f64, force: bool, what: &str) -> Result<(), Error> {
     }
     let gigabytes = |bytes: f64| format!("{:.3e} GB", bytes / 1e9);
     Err(Error::usage(
-        format!("{what} would take {} of {} of memory", gigabytes(bytes), gigabytes(available)),
+        format!(
+            "{what} would take {} of {} of memory",
+            gigabytes(bytes),
+            gigabytes(available)
+        ),
         format!("up to {} (--force overrides)", gigabytes(SHARE * available)),
     ))
 }

@@ -9,6 +9,7 @@ mod destinations;
 mod errors;
 mod on_demand;
 mod plot;
+mod surfaces;
 mod tables;
 mod tension;
 mod verify;

@@ -16,11 +16,21 @@ fn a_mesh_is_made_described_refined_and_evaluated() {
         &facts,
         "vertices faces edges faces_by_size euler genus components boundary_loops valences features isolation defects",
     );
-    assert_eq!((number(&facts, "edges"), number(&facts, "euler"), number(&facts, "isolation")), (12.0, 2.0, 1.0));
+    assert_eq!(
+        (
+            number(&facts, "edges"),
+            number(&facts, "euler"),
+            number(&facts, "isolation")
+        ),
+        (12.0, 2.0, 1.0)
+    );
     assert_eq!(facts["valences"]["3"], 8);
     let summary = place.json("subdivide cube.obj --scheme catmull-clark --levels 3");
     has_fields(&summary, "vertices faces faces_by_size levels bounds position_sum");
-    assert_eq!((number(&summary, "faces"), number(&summary, "vertices")), (384.0, 386.0));
+    assert_eq!(
+        (number(&summary, "faces"), number(&summary, "vertices")),
+        (384.0, 386.0)
+    );
     for format in ["obj", "ply", "off", "vtk", "glb"] {
         let name = format!("fine.{format}");
         let text = place.ok(&["subdivide", "cube.obj", "--scheme", "doo-sabin", "-o", &name]);
@@ -31,26 +41,51 @@ fn a_mesh_is_made_described_refined_and_evaluated() {
         same["defects"] = serde_json::json!([]);
         same
     });
-    let rows = csv_rows(&place.ok(&["limit", "cube.obj", "--scheme", "catmull-clark", "--vertices", "--format", "csv"]));
+    let rows = csv_rows(&place.ok(&[
+        "limit",
+        "cube.obj",
+        "--scheme",
+        "catmull-clark",
+        "--vertices",
+        "--format",
+        "csv",
+    ]));
     assert!(rows.len() == 8 && rows[0]["kind"] == "flat" && rows[0]["faces"].split(' ').count() == 3);
     place.write("p.csv", "face,sub,s,t,corner\n0,0,0.25,0.5,0\n0,0,1e-18,1e-18,2\n");
-    let arguments = ["limit", "cube.obj", "--scheme", "lambda:optimal", "--points", "p.csv", "--derivatives", "2"];
+    let arguments = [
+        "limit",
+        "cube.obj",
+        "--scheme",
+        "lambda:optimal",
+        "--points",
+        "p.csv",
+        "--derivatives",
+        "2",
+    ];
     place.ok(&[&arguments[..], &["-o", "points.csv"]].concat());
     let rows = csv_rows(&place.read("points.csv"));
     assert_eq!(rows.len(), 2);
-    for column in "face sub s t x y z xs ys zs xt yt zt xss yss zss xst yst zst xtt ytt ztt nx ny nz gauss mean k1 k2".split(' ') {
+    for column in
+        "face sub s t x y z xs ys zs xt yt zt xss yss zss xst yst zst xtt ytt ztt nx ny nz gauss mean k1 k2".split(' ')
+    {
         assert!(rows[1][column].parse::<f64>().unwrap().is_finite(), "{column}");
     }
     // Gauss and Bonnet: the Gauss curvature of a sphere-like surface adds up to 4 pi
     let found = place.json("curvature cube.obj --scheme catmull-clark --radii 1e-1..1e-6");
-    assert!((number(&found, "total_gauss") - number(&found, "two_pi_chi")).abs() < 1e-6, "{found}");
+    assert!(
+        (number(&found, "total_gauss") - number(&found, "two_pi_chi")).abs() < 1e-6,
+        "{found}"
+    );
     assert_eq!(found["centres"].as_array().unwrap().len(), 8);
 }
 
 #[test]
 fn bad_input_ends_with_one_line_and_leaves_nothing() {
     let place = place();
-    place.write("flipped.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nf 1 2 3 4\nf 2 3 6 5\n");
+    place.write(
+        "flipped.obj",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nf 1 2 3 4\nf 2 3 6 5\n",
+    );
     place.write("zero.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 0 1 2\n");
     place.write("empty.obj", "");
     std::fs::create_dir(place.path().join("folder.obj")).unwrap();
@@ -61,9 +96,15 @@ fn bad_input_ends_with_one_line_and_leaves_nothing() {
         ("subdivide empty.obj --scheme catmull-clark -o out.obj", "no faces"),
         ("subdivide folder.obj --scheme catmull-clark", "folder"),
         ("subdivide missing.obj --scheme catmull-clark", "missing.obj"),
-        ("subdivide cube.obj --scheme catmull-clark -o /proc/none/out.obj", "cannot write"),
+        (
+            "subdivide cube.obj --scheme catmull-clark -o /proc/none/out.obj",
+            "cannot write",
+        ),
         ("subdivide cube.obj --scheme catmull-clark -o out.stl", ".stl"),
-        ("subdivide cube.obj --scheme catmull-clark --levels 40 -o out.obj", "of memory"),
+        (
+            "subdivide cube.obj --scheme catmull-clark --levels 40 -o out.obj",
+            "of memory",
+        ),
         ("subdivide cube.obj --scheme catmull-clark --threads 0", "threads"),
         ("subdivide cube.obj --scheme doo-sabin --lambda-map x.csv", "x.csv"),
         ("limit cube.obj --scheme tension:order=6 --vertices", "no exact limits"),
@@ -74,7 +115,10 @@ fn bad_input_ends_with_one_line_and_leaves_nothing() {
         let run = place.run(&arguments);
         assert_eq!(run.code, Some(2), "{line}: {}", run.stderr);
         let message = run.stderr.trim_end();
-        assert!(message.contains(needle) && message.lines().count() == 1, "{line}: {message}");
+        assert!(
+            message.contains(needle) && message.lines().count() == 1,
+            "{line}: {message}"
+        );
         assert!(!place.path().join("out.obj").exists(), "{line}");
     }
     let run = place.run(&["mesh", "flipped.obj", "--format", "json"]);

@@ -121,6 +121,11 @@ impl Font {
         path.0
     }
 
+    /// Hands the outline, in the font's units and y up, to a builder.
+    pub fn draw(&self, id: u16, builder: &mut dyn OutlineBuilder) {
+        self.face.outline_glyph(GlyphId(id), builder);
+    }
+
     /// Scale from the font's units to a size.
     pub fn scale(&self, size: f64) -> f64 {
         size / self.em

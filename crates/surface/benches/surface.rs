@@ -19,17 +19,27 @@ fn control() -> eigenring_surface::Mesh {
     };
     let file = std::fs::File::open(path).expect("EIGENRING_MESH names an OBJ file");
     let mesh = eigenring_surface::io::read(file, eigenring_surface::io::Format::Obj);
-    mesh.and_then(eigenring_surface::io::MeshFile::surface).expect("it is a surface")
+    mesh.and_then(eigenring_surface::io::MeshFile::surface)
+        .expect("it is a surface")
 }
 
 fn refinement(criterion: &mut Criterion) {
     let control = control();
     let mut group = criterion.benchmark_group("refinement");
     group.sample_size(10);
-    for (spec, levels) in [("catmull-clark", 6), ("catmull-clark", 7), ("doo-sabin", 6), ("lambda:optimal", 6)] {
+    for (spec, levels) in [
+        ("catmull-clark", 6),
+        ("catmull-clark", 7),
+        ("doo-sabin", 6),
+        ("lambda:optimal", 6),
+    ] {
         let rules = rules(spec);
         group.bench_function(format!("{spec}/{levels}"), |bench| {
-            bench.iter(|| Refiner::new(&rules).refined(black_box(&control), levels).expect("it is a surface"));
+            bench.iter(|| {
+                Refiner::new(&rules)
+                    .refined(black_box(&control), levels)
+                    .expect("it is a surface")
+            });
         });
     }
     group.finish();
@@ -40,7 +50,10 @@ fn evaluation(criterion: &mut Criterion) {
     let rules = rules("catmull-clark");
     let surface = Surface::new(&control, &rules).expect("it is a surface");
     // about a million places
-    let quarters: usize = control.faces().map(|face| if face.len() == 4 { 1 } else { face.len() }).sum();
+    let quarters: usize = control
+        .faces()
+        .map(|face| if face.len() == 4 { 1 } else { face.len() })
+        .sum();
     let places = surface.grid((1e6 / quarters as f64).sqrt().round() as usize);
     let mut group = criterion.benchmark_group("evaluation");
     group.sample_size(10);

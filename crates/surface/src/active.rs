@@ -150,7 +150,10 @@ impl Active {
     /// How sharp an edge is in this level: 1 a crease, 0 smooth, between them a blend of both.
     pub fn edge_weight(&self, [a, b]: [u32; 2]) -> f64 {
         let spokes = self.spokes.get(&a).map_or(&[][..], Vec::as_slice);
-        let sharpness = spokes.iter().find(|spoke| spoke.other == b).map_or(0.0, |spoke| spoke.sharpness);
+        let sharpness = spokes
+            .iter()
+            .find(|spoke| spoke.other == b)
+            .map_or(0.0, |spoke| spoke.sharpness);
         sharpness.min(1.0)
     }
 }

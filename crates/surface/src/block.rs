@@ -99,7 +99,11 @@ impl Layout<'_> {
             return self.topology.head(half) as usize;
         }
         let edge = self.topology.edge(half);
-        let p = if self.topology.half_of_edge(edge) == half { p } else { n - p };
+        let p = if self.topology.half_of_edge(edge) == half {
+            p
+        } else {
+            n - p
+        };
         self.side_start() + edge as usize * (n - 1) + p - 1
     }
 }
@@ -234,7 +238,9 @@ impl<'a> Blocks<'a> {
         let mut mesh = Mesh::of_quads(points, corners);
         mesh.features.boundary = self.mesh.features.boundary;
         mesh.features.corners.clone_from(&self.mesh.features.corners);
-        mesh.features.extraordinary.clone_from(&self.mesh.features.extraordinary);
+        mesh.features
+            .extraordinary
+            .clone_from(&self.mesh.features.extraordinary);
         for (pair, &sharpness) in &self.mesh.features.creases {
             let half = (0..self.topology.edge_count() as u32).find(|&e| self.topology.edge_points(e) == *pair);
             let Some(half) = half.map(|number| self.topology.half_of_edge(number)) else {
@@ -242,7 +248,9 @@ impl<'a> Blocks<'a> {
             };
             for p in 0..n {
                 let ends = [p, p + 1].map(|p| layout.at(half, p, 0) as u32);
-                mesh.features.creases.insert(crate::features::edge(ends[0], ends[1]), sharpness);
+                mesh.features
+                    .creases
+                    .insert(crate::features::edge(ends[0], ends[1]), sharpness);
             }
         }
         Ok(mesh)

@@ -58,8 +58,14 @@ impl DefectKind {
                 "joins several fans of faces",
                 "one fan of faces at a vertex (--split-non-manifold takes them apart)",
             ),
-            DefectKind::NoSuchEdge => ("is marked but is no edge of a face", "marks on edges and vertices of faces"),
-            DefectKind::BadMark => ("has a mark that is negative or no number", "finite numbers, none negative"),
+            DefectKind::NoSuchEdge => (
+                "is marked but is no edge of a face",
+                "marks on edges and vertices of faces",
+            ),
+            DefectKind::BadMark => (
+                "has a mark that is negative or no number",
+                "finite numbers, none negative",
+            ),
         }
     }
 }
@@ -116,7 +122,11 @@ pub fn in_words(defects: &[(Defect, Option<u32>)]) -> String {
         .collect();
     let (what, accepted) = kind.explained();
     let more = alike.count().saturating_sub(NAMED);
-    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    let more = if more > 0 {
+        format!(" and {more} more")
+    } else {
+        String::new()
+    };
     let others = defects.iter().filter(|(defect, _)| defect.kind != kind).count();
     let others = match others {
         0 => String::new(),
@@ -363,7 +373,9 @@ impl Mesh {
                             continue;
                         };
                         let next = pair.iter().find(|&&next| next as usize != face).copied();
-                        let found = left.iter().position(|&half| Some(face_of[half as usize] as u32) == next);
+                        let found = left
+                            .iter()
+                            .position(|&half| Some(face_of[half as usize] as u32) == next);
                         if let Some(found) = found {
                             group.push(left.remove(found));
                         }

@@ -151,7 +151,11 @@ impl CellNet {
         self.mesh.points_mut().copy_from_slice(&moved);
         if !left_out.is_empty() {
             let mut kept = Mesh::of_points(moved);
-            for face in self.mesh.faces().filter(|face| face.iter().all(|v| !left_out.contains(v))) {
+            for face in self
+                .mesh
+                .faces()
+                .filter(|face| face.iter().all(|v| !left_out.contains(v)))
+            {
                 kept.push_face(face)?;
             }
             self.halves = vec![None; kept.face_count()];
@@ -215,7 +219,12 @@ impl Builder<'_> {
                 let n = corners.len() - 2 - usize::from(corner);
                 let rows = half_cell(n, &self.u, corner);
                 for (i, weights) in rows.into_iter().enumerate() {
-                    let row = corners.iter().copied().zip(weights).filter(|(_, w)| *w != 0.0).collect();
+                    let row = corners
+                        .iter()
+                        .copied()
+                        .zip(weights)
+                        .filter(|(_, w)| *w != 0.0)
+                        .collect();
                     let half = halves.start + (i + 1 + usize::from(corner)) as u32;
                     self.cut[half as usize] = self.point(row, Role::Inner);
                 }
@@ -248,7 +257,9 @@ impl Builder<'_> {
         let average = eigenring_scheme::Line::average();
         let fits = passes[0].scale() == 2
             && chain[0] == Lattice::Face
-            && chain[1..].chunks(2).all(|pair| pair == [Lattice::Vertex, Lattice::Face])
+            && chain[1..]
+                .chunks(2)
+                .all(|pair| pair == [Lattice::Vertex, Lattice::Face])
             && passes[1..].iter().all(|pass| pass.line() == Some(&average));
         if fits {
             Ok(chain.len() / 2)
@@ -430,7 +441,12 @@ impl Builder<'_> {
                     let left = topology.edge(topology.previous(half));
                     let right = topology.edge(topology.next(twin));
                     let [b_r, b_l] = [right, left].map(|number| self.on_rim[&(number, x)]);
-                    let corners = [b_r, self.cut[twin as usize], self.cut[topology.next(half) as usize], b_l];
+                    let corners = [
+                        b_r,
+                        self.cut[twin as usize],
+                        self.cut[topology.next(half) as usize],
+                        b_l,
+                    ];
                     self.cell(&corners, Some(false));
                 }
                 _ => {}
@@ -468,8 +484,13 @@ fn no_rule(what: &str, elements: &[u32]) -> Error {
     let named: Vec<String> = elements.iter().take(10).map(u32::to_string).collect();
     Error::NoRule {
         what: what.to_owned(),
-        elements: if named.is_empty() { "every vertex".to_owned() } else { format!("vertices {}", named.join(", ")) },
-        accepted: "are boundaries, creases of sharpness 10 and above that run on or end in corners, and corners on them"
-            .to_owned(),
+        elements: if named.is_empty() {
+            "every vertex".to_owned()
+        } else {
+            format!("vertices {}", named.join(", "))
+        },
+        accepted:
+            "are boundaries, creases of sharpness 10 and above that run on or end in corners, and corners on them"
+                .to_owned(),
     }
 }

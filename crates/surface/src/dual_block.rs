@@ -49,7 +49,11 @@ impl Blocks<'_> {
         let mut points = vec![Point3::origin(); self.topology.half_count()];
         for face in 0..self.topology.face_count() as u32 {
             let halves: Vec<u32> = self.topology.face_halves(face).collect();
-            let old: Vec<Point3<f64>> = mesh.face(face as usize).iter().map(|&v| mesh.points()[v as usize]).collect();
+            let old: Vec<Point3<f64>> = mesh
+                .face(face as usize)
+                .iter()
+                .map(|&v| mesh.points()[v as usize])
+                .collect();
             for (half, point) in halves.into_iter().zip(self.cut(&old, 0)?) {
                 points[half as usize] = point;
             }
@@ -82,7 +86,10 @@ impl Blocks<'_> {
     ) -> Result<Vec<Point3<f64>>, Error> {
         let topology = self.topology;
         let regular = self.rules.inner(None, 4)?;
-        let line = regular.level(level).passes()[0].line().cloned().unwrap_or_else(|| Line::corner_cutting(1.0));
+        let line = regular.level(level).passes()[0]
+            .line()
+            .cloned()
+            .unwrap_or_else(|| Line::corner_cutting(1.0));
         let mut new = vec![Point3::origin(); 4 * old.len()];
         let parts = new.chunks_mut(4 * n * n).collect();
         workers.points(parts, &|half, part| {
@@ -179,13 +186,21 @@ impl Blocks<'_> {
             }
         }
         for vertex in 0..topology.vertex_count() as u32 {
-            let corners: Vec<u32> = topology.fan(vertex).spokes.iter().map(|&half| index(half, 0, 0)).collect();
+            let corners: Vec<u32> = topology
+                .fan(vertex)
+                .spokes
+                .iter()
+                .map(|&half| index(half, 0, 0))
+                .collect();
             if !corners.is_empty() {
                 mesh.push_corners(&corners);
             }
         }
         for face in 0..topology.face_count() as u32 {
-            let corners: Vec<u32> = topology.face_halves(face).map(|half| index(half, n - 1, n - 1)).collect();
+            let corners: Vec<u32> = topology
+                .face_halves(face)
+                .map(|half| index(half, n - 1, n - 1))
+                .collect();
             mesh.push_corners(&corners);
         }
         Ok(mesh)

@@ -61,11 +61,10 @@ impl Features {
 
     /// The marks of points with other numbers; those of points without one are left out.
     pub fn renumbered(&self, map: impl Fn(u32) -> Option<u32>) -> Features {
-        fn edges<T: Copy>(
-            of: &BTreeMap<[u32; 2], T>,
-            map: &impl Fn(u32) -> Option<u32>,
-        ) -> BTreeMap<[u32; 2], T> {
-            let moved = of.iter().filter_map(|(&[a, b], &value)| Some((edge(map(a)?, map(b)?), value)));
+        fn edges<T: Copy>(of: &BTreeMap<[u32; 2], T>, map: &impl Fn(u32) -> Option<u32>) -> BTreeMap<[u32; 2], T> {
+            let moved = of
+                .iter()
+                .filter_map(|(&[a, b], &value)| Some((edge(map(a)?, map(b)?), value)));
             moved.collect()
         }
         fn vertices<T: Copy>(of: &BTreeMap<u32, T>, map: &impl Fn(u32) -> Option<u32>) -> BTreeMap<u32, T> {
@@ -93,13 +92,23 @@ impl Features {
     /// The largest sharpness that ends.
     pub fn largest_finite_sharpness(&self) -> f64 {
         let all = self.creases.values().chain(self.corners.values());
-        all.copied().filter(|&sharpness| sharpness < INFINITE).fold(0.0, f64::max)
+        all.copied()
+            .filter(|&sharpness| sharpness < INFINITE)
+            .fold(0.0, f64::max)
     }
 
     /// The largest number of a point that is marked.
     pub fn largest_index(&self) -> Option<u32> {
-        let edges = self.creases.keys().chain(self.edge_steps.keys()).chain(self.knots.keys());
-        let vertices = self.corners.keys().chain(self.vertex_steps.keys()).chain(&self.extraordinary);
+        let edges = self
+            .creases
+            .keys()
+            .chain(self.edge_steps.keys())
+            .chain(self.knots.keys());
+        let vertices = self
+            .corners
+            .keys()
+            .chain(self.vertex_steps.keys())
+            .chain(&self.extraordinary);
         edges.map(|[_, b]| *b).chain(vertices.copied()).max()
     }
 }

@@ -201,7 +201,9 @@ impl Mesh {
                 .map(|weights| kept.iter().map(|&index| weights[index]).collect()),
             starts: self.starts.clone(),
             corners: self.corners.iter().map(|&corner| map(corner)).collect(),
-            features: self.features.renumbered(|index| Some(map(index)).filter(|&index| index != u32::MAX)),
+            features: self
+                .features
+                .renumbered(|index| Some(map(index)).filter(|&index| index != u32::MAX)),
         }
     }
 

@@ -82,10 +82,18 @@ pub(crate) fn rows(
             let scheme = rules.inner(Some(vertex), n)?;
             let level = scheme.limit();
             let listed: Vec<Site> = level.passes()[pass].special().keys().copied().collect();
-            let turns = if listed.iter().all(|site| site.sector == 0) { n } else { 1 };
+            let turns = if listed.iter().all(|site| site.sector == 0) {
+                n
+            } else {
+                1
+            };
             for sector in 0..turns {
                 for &site in &listed {
-                    let site = if site == Site::CENTRE { site } else { site.rotated(level.fan(), sector as i64) };
+                    let site = if site == Site::CENTRE {
+                        site
+                    } else {
+                        site.rotated(level.fan(), sector as i64)
+                    };
                     let stencil = level.stencil(pass, site)?;
                     let at = locate(made, spoke_of(fan.spokes[0], refined), site);
                     let row = stencil_row(read, spoke_of(fan.spokes[0], read_fine), &stencil);

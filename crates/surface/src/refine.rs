@@ -133,7 +133,11 @@ impl Split {
             tables.push(table);
         }
         for ((point, value), &missing) in self.mesh.points_mut().iter_mut().zip(values).zip(&missing) {
-            *point = if missing { Point3::new(f64::NAN, f64::NAN, f64::NAN) } else { Point3::from(value) };
+            *point = if missing {
+                Point3::new(f64::NAN, f64::NAN, f64::NAN)
+            } else {
+                Point3::from(value)
+            };
         }
         let features = &mut self.mesh.features;
         for sharpness in features.creases.values_mut().chain(features.corners.values_mut()) {
@@ -151,7 +155,9 @@ impl Split {
         }
         let kept = |face: &u32| self.mesh.face(*face as usize).iter().all(|&v| !missing[v as usize]);
         let halves: Vec<u32> = (0..all).filter(kept).collect();
-        let corners = halves.iter().flat_map(|&face| self.mesh.face(face as usize).iter().copied());
+        let corners = halves
+            .iter()
+            .flat_map(|&face| self.mesh.face(face as usize).iter().copied());
         let mut mesh = Mesh::of_quads(self.mesh.points().to_vec(), corners.collect());
         mesh.features = self.mesh.features.clone();
         Ok(Step { mesh, tables, halves })
@@ -332,7 +338,8 @@ impl Context<'_> {
         for vertex in 0..split.vertices {
             let fan = topology.fan(vertex);
             let n = fan.spokes.len();
-            if n == 0 || !fan.is_closed() || !self.active.is_plain(vertex) || !self.rules.is_special(vertex, n) || n < 3 {
+            if n == 0 || !fan.is_closed() || !self.active.is_plain(vertex) || !self.rules.is_special(vertex, n) || n < 3
+            {
                 continue;
             }
             let scheme = self.rules.inner(Some(vertex), n)?;
@@ -349,7 +356,11 @@ impl Context<'_> {
                 0..1
             };
             for (sector, &site) in sectors.flat_map(|sector| sites.iter().map(move |site| (sector, site))) {
-                let target = if sector == 0 { site } else { site.rotated(level.fan(), sector as i64) };
+                let target = if sector == 0 {
+                    site
+                } else {
+                    site.rotated(level.fan(), sector as i64)
+                };
                 // the child of a half-edge's corner starts with that half-edge's first half
                 let at = locate(fine, 4 * fan.spokes[0], target);
                 let row = stencil_row(topology, fan.spokes[0], &level.stencil(pass, target)?);
@@ -426,7 +437,11 @@ impl Context<'_> {
 }
 
 fn crowded(a: u32, b: u32) -> Error {
-    let elements = if a == b { format!("vertex {a}") } else { format!("vertices {a} and {b}") };
+    let elements = if a == b {
+        format!("vertex {a}")
+    } else {
+        format!("vertices {a} and {b}")
+    };
     Error::NoRule {
         what: "special rules that meet each other or a boundary".to_owned(),
         elements,
@@ -437,7 +452,9 @@ fn crowded(a: u32, b: u32) -> Error {
 /// The points that a stencil around a vertex reads; `None` if one of them is not there.
 pub(crate) fn stencil_row(topology: &Topology, first: u32, stencil: &Stencil<f64>) -> Option<Row> {
     let terms = stencil.terms().iter();
-    terms.map(|(site, weight)| Some((locate(topology, first, *site)?, *weight))).collect()
+    terms
+        .map(|(site, weight)| Some((locate(topology, first, *site)?, *weight)))
+        .collect()
 }
 
 /// The tensor product of a line along a half-edge and across it.

@@ -113,7 +113,9 @@ impl<'a> Refiner<'a> {
     /// apart.
     pub(crate) fn rules_on(&self, mesh: &Mesh, topology: &Topology) -> Result<RulesOn<'a>, Error> {
         if self.follows_catmull_clark(mesh, topology)? {
-            return Ok(RulesOn::First(Box::new(Rules::new(Definition::Family(Spec::CatmullClark)))));
+            return Ok(RulesOn::First(Box::new(Rules::new(Definition::Family(
+                Spec::CatmullClark,
+            )))));
         }
         Ok(RulesOn::Own(self.rules))
     }

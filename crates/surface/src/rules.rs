@@ -164,7 +164,10 @@ impl Rules {
             level.passes()[pass].special().iter().all(|(&site, stencil)| {
                 reference(pass, site).is_some_and(|regular| {
                     let weight = |of: &Stencil<f64>, at: Site| {
-                        of.terms().iter().find(|(site, _)| *site == at).map_or(0.0, |term| term.1)
+                        of.terms()
+                            .iter()
+                            .find(|(site, _)| *site == at)
+                            .map_or(0.0, |term| term.1)
                     };
                     let sites = regular.terms().iter().chain(stencil.terms()).map(|(site, _)| *site);
                     let mut sites = sites;
@@ -243,7 +246,11 @@ impl Rules {
     ) -> Result<[f64; 3], Error> {
         let method = self.method()?;
         if let Method::Even { u0, .. } = method {
-            return Ok(smoothing_weights(pass.saturating_sub(1), valence, tension_at(u0, level)));
+            return Ok(smoothing_weights(
+                pass.saturating_sub(1),
+                valence,
+                tension_at(u0, level),
+            ));
         }
         let scheme = if plain {
             if valence == 2 && matches!(self.definition(), Definition::Family(Spec::CatmullClark)) {
@@ -258,7 +265,11 @@ impl Rules {
         let stencil = scheme.level(level).stencil(pass, Site::CENTRE)?;
         let weight = |x, y| {
             let site = Site { sector: 0, x, y };
-            stencil.terms().iter().find(|(at, _)| *at == site).map_or(0.0, |term| term.1)
+            stencil
+                .terms()
+                .iter()
+                .find(|(at, _)| *at == site)
+                .map_or(0.0, |term| term.1)
         };
         Ok([weight(0, 0), weight(2, 0), weight(2, 2)])
     }

@@ -82,9 +82,8 @@ pub fn torus(around: usize, across: usize) -> Mesh {
         })
     });
     let at = |i: usize, j: usize| (i % around * across + j % across) as u32;
-    let faces = (0..around).flat_map(|i| {
-        (0..across).map(move |j| vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)])
-    });
+    let faces = (0..around)
+        .flat_map(|i| (0..across).map(move |j| vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]));
     mesh(points.collect(), faces.collect::<Vec<_>>())
 }
 
@@ -110,7 +109,12 @@ pub fn star(n: usize, rings: usize) -> Mesh {
     };
     let mut faces = Vec::new();
     for (sector, a, b) in (0..n).flat_map(|s| (0..rings).flat_map(move |a| (0..rings).map(move |b| (s, a, b)))) {
-        faces.push(vec![at(sector, a, b), at(sector, a + 1, b), at(sector, a + 1, b + 1), at(sector, a, b + 1)]);
+        faces.push(vec![
+            at(sector, a, b),
+            at(sector, a + 1, b),
+            at(sector, a + 1, b + 1),
+            at(sector, a, b + 1),
+        ]);
     }
     mesh(points, faces)
 }
@@ -124,7 +128,11 @@ pub fn brick(size: [usize; 3]) -> Mesh {
 /// A plate with three holes: genus 3.
 pub fn triple_torus() -> Mesh {
     let hole = |i: i32, j: i32| j == 1 && i % 2 == 1;
-    cubes((0..7).flat_map(|i| (0..3).map(move |j| [i, j, 0])).filter(|&[i, j, _]| !hole(i, j)))
+    cubes(
+        (0..7)
+            .flat_map(|i| (0..3).map(move |j| [i, j, 0]))
+            .filter(|&[i, j, _]| !hole(i, j)),
+    )
 }
 
 /// A hub of `n` sides with a turned blade on each of them.
@@ -210,7 +218,10 @@ pub fn fan(n: usize) -> Mesh {
     points.extend((0..n).map(|i| nalgebra::center(&corner(i), &corner(i + n - 1))));
     let at = |i: usize| (1 + i % n) as u32;
     let middle = |i: usize| (1 + n + i % n) as u32;
-    split(&mesh(points, (0..n).map(|i| vec![0, middle(i), at(i), middle(i + 1)])), 2)
+    split(
+        &mesh(points, (0..n).map(|i| vec![0, middle(i), at(i), middle(i + 1)])),
+        2,
+    )
 }
 
 /// The unit square with inner vertices of valence 5, 3, 5, 3: a 4 x 3 grid with one edge turned, inner
@@ -235,8 +246,11 @@ pub fn square3355() -> Mesh {
         for vertex in 0..old.len() as u32 {
             let fan = topology.fan(vertex);
             if fan.is_closed() {
-                let sum: nalgebra::Vector3<f64> =
-                    fan.spokes.iter().map(|&spoke| old[topology.head(spoke) as usize].coords).sum();
+                let sum: nalgebra::Vector3<f64> = fan
+                    .spokes
+                    .iter()
+                    .map(|&spoke| old[topology.head(spoke) as usize].coords)
+                    .sum();
                 coarse.points_mut()[vertex as usize] = Point3::from(sum / fan.spokes.len() as f64);
             }
         }
@@ -254,7 +268,11 @@ mod tests {
         let check = |name: &str, mesh: Mesh, genus: i64, loops: usize| {
             let topology = Topology::new(&mesh).unwrap_or_else(|defects| panic!("{name}: {defects:?}"));
             let facts = Facts::of(&mesh, &topology);
-            assert_eq!((facts.genus, facts.boundary_loops.len(), facts.components), (genus, loops, 1), "{name}");
+            assert_eq!(
+                (facts.genus, facts.boundary_loops.len(), facts.components),
+                (genus, loops, 1),
+                "{name}"
+            );
             facts
         };
         check("cube", cube(), 0, 0);
@@ -272,12 +290,21 @@ mod tests {
         let facts = check("square3355", square3355(), 0, 1);
         assert_eq!((facts.valences[&3], facts.valences[&5]), (2, 2));
         // outwards: the volume is positive
-        for mesh in [cube(), tetrahedron(), torus(12, 8), triple_torus(), propeller(3), gear(8)] {
+        for mesh in [
+            cube(),
+            tetrahedron(),
+            torus(12, 8),
+            triple_torus(),
+            propeller(3),
+            gear(8),
+        ] {
             let volume: f64 = mesh
                 .faces()
                 .flat_map(|face| {
                     let p = |i: usize| mesh.points()[face[i] as usize].coords;
-                    (1..face.len() - 1).map(move |i| p(0).dot(&p(i).cross(&p(i + 1)))).collect::<Vec<_>>()
+                    (1..face.len() - 1)
+                        .map(move |i| p(0).dot(&p(i).cross(&p(i + 1))))
+                        .collect::<Vec<_>>()
                 })
                 .sum();
             assert!(volume > 0.0);

@@ -13,7 +13,11 @@ const LEVELS: usize = 2;
 
 fn wave(index: usize) -> [f64; 3] {
     let x = index as f64;
-    [(1.3 * x).sin(), (0.7 * x + 1.0).cos(), (2.1 * x).sin() * (0.3 * x).cos()]
+    [
+        (1.3 * x).sin(),
+        (0.7 * x + 1.0).cos(),
+        (2.1 * x).sin() * (0.3 * x).cos(),
+    ]
 }
 
 /// The net as a mesh: the points of the numbering, and all faces between them.
@@ -32,7 +36,10 @@ fn mesh_of(numbering: Numbering) -> Mesh {
         mesh.push_corners(&middle);
     }
     for sector in 0..numbering.fan.sectors() {
-        for (x, y) in (parity..reach).step_by(2).flat_map(|x| (-parity..reach).step_by(2).map(move |y| (x, y))) {
+        for (x, y) in (parity..reach)
+            .step_by(2)
+            .flat_map(|x| (-parity..reach).step_by(2).map(move |y| (x, y)))
+        {
             let corners = [(x, y), (x + 2, y), (x + 2, y + 2), (x, y + 2)].map(|(x, y)| at(sector, x, y));
             if let [Some(a), Some(b), Some(c), Some(d)] = corners {
                 mesh.push_corners(&[a, b, c, d]);
@@ -64,9 +71,7 @@ fn difference(scheme: &Scheme<f64>, rules: &Rules, mark: impl Fn(&mut Mesh, Numb
     let found = |site: Site| -> u32 {
         match closed.lattice {
             // the centre keeps its number, and its fan begins where it did
-            Lattice::Vertex => {
-                locate(&topology, first_spoke(&topology), site).unwrap()
-            }
+            Lattice::Vertex => locate(&topology, first_spoke(&topology), site).unwrap(),
             // the first cell is that of the face
             Lattice::Face => refined.face(0)[site.sector],
         }
@@ -105,7 +110,11 @@ fn closed_fans_of_all_registered_schemes() {
                     continue;
                 }
                 let scheme: Scheme<f64> = rules.definition().inner(n).unwrap();
-                let boundary = if scheme.lattice() == Lattice::Face { Boundary::Shrink } else { Boundary::Edge };
+                let boundary = if scheme.lattice() == Lattice::Face {
+                    Boundary::Shrink
+                } else {
+                    Boundary::Edge
+                };
                 let worst = difference(&scheme, &rules, |_, _| {}, boundary);
                 assert!(worst < 1e-13, "{spec} N = {n}: {worst:e}");
             }
@@ -123,7 +132,13 @@ fn mark_crease(mesh: &mut Mesh, pair: [u32; 2], sharpness: f64) {
 
 #[test]
 fn open_fans_and_creases() {
-    for spec in ["catmull-clark", "lambda:optimal", "tension:order=4,u0=0.5", "tension:order=6,u0=2", "stam:order=8"] {
+    for spec in [
+        "catmull-clark",
+        "lambda:optimal",
+        "tension:order=4,u0=0.5",
+        "tension:order=6,u0=2",
+        "stam:order=8",
+    ] {
         let rules = rules_of(spec);
         for n in 1..=8 {
             let corner = Corner::fan(n).unwrap();
@@ -170,13 +185,22 @@ fn rigid_motions_commute_with_refinement() {
         nalgebra::Vector3::new(0.3, -2.0, 1.1),
         nalgebra::Vector3::new(0.4, 1.3, -0.7),
     );
-    for spec in ["catmull-clark", "doo-sabin", "lambda:lambda=0.5", "tension:order=5", "tension:order=6,u0=0.3"] {
+    for spec in [
+        "catmull-clark",
+        "doo-sabin",
+        "lambda:lambda=0.5",
+        "tension:order=5",
+        "tension:order=6,u0=0.3",
+    ] {
         let rules = rules_of(spec);
         let control = crate::shapes::propeller(5);
         let mut moved = control.clone();
         moved.points_mut().iter_mut().for_each(|point| *point = motion * *point);
         let refiner = Refiner::new(&rules);
-        let (first, second) = (refiner.refined(&control, 3).unwrap(), refiner.refined(&moved, 3).unwrap());
+        let (first, second) = (
+            refiner.refined(&control, 3).unwrap(),
+            refiner.refined(&moved, 3).unwrap(),
+        );
         assert!(first.faces().eq(second.faces()));
         for (a, b) in first.points().iter().zip(second.points()) {
             assert!((motion * a - b).norm() < 1e-13, "{spec}");
@@ -190,7 +214,11 @@ fn blocks_are_tables_level_by_level() {
     for spec in ["catmull-clark", "lambda:optimal", "doo-sabin"] {
         let rules = rules_of(spec);
         let refiner = Refiner::new(&rules);
-        for mut control in [crate::shapes::gear(3), crate::shapes::propeller(3), crate::shapes::tetrahedron()] {
+        for mut control in [
+            crate::shapes::gear(3),
+            crate::shapes::propeller(3),
+            crate::shapes::tetrahedron(),
+        ] {
             if spec != "doo-sabin" {
                 let face = control.face(0).to_vec();
                 control.features.creases.insert(edge(face[0], face[1]), 10.0);
@@ -215,12 +243,19 @@ fn blocks_are_tables_level_by_level() {
                 keys
             };
             let (a, b) = (sorted(&blocks), sorted(&tables));
-            let near = a.iter().zip(&b).filter(|(a, b)| (0..3).all(|k| (a[k] - b[k]).abs() <= 1)).count();
+            let near = a
+                .iter()
+                .zip(&b)
+                .filter(|(a, b)| (0..3).all(|k| (a[k] - b[k]).abs() <= 1))
+                .count();
             // sorting may exchange points whose first coordinates differ by rounding only
             assert!(near * 100 >= 99 * a.len(), "{spec}: {near} of {}", a.len());
             if spec != "doo-sabin" {
                 for vertex in 0..control.points().len() {
-                    assert!((blocks.points()[vertex] - tables.points()[vertex]).norm() < 1e-14, "{spec}");
+                    assert!(
+                        (blocks.points()[vertex] - tables.points()[vertex]).norm() < 1e-14,
+                        "{spec}"
+                    );
                 }
             }
             assert!(Topology::new(&blocks).is_ok());
@@ -251,7 +286,10 @@ fn dual_schemes_name_what_they_have_no_rule_for() {
     let face = crate::shapes::torus(5, 4).face(0).to_vec();
     let pair = edge(face[0], face[1]);
     let dart = refuse(&|mesh| mark_crease(mesh, pair, 10.0));
-    assert!(dart.contains("dart") && dart.contains(&format!("vertices {}, {}", pair[0], pair[1])), "{dart}");
+    assert!(
+        dart.contains("dart") && dart.contains(&format!("vertices {}, {}", pair[0], pair[1])),
+        "{dart}"
+    );
     let soft = refuse(&|mesh| mark_crease(mesh, pair, 3.0));
     assert!(soft.contains("below 10"), "{soft}");
     let cusp = refuse(&|mesh| mark_corner(mesh, pair[0]));

@@ -33,7 +33,12 @@ fn awkward() -> Mesh {
 #[test]
 fn what_is_written_is_read_back_to_the_last_bit() {
     let mesh = awkward();
-    let bits = |mesh: &Mesh| -> Vec<u64> { mesh.points().iter().flat_map(|p| p.iter().map(|x| x.to_bits()).collect::<Vec<_>>()).collect() };
+    let bits = |mesh: &Mesh| -> Vec<u64> {
+        mesh.points()
+            .iter()
+            .flat_map(|p| p.iter().map(|x| x.to_bits()).collect::<Vec<_>>())
+            .collect()
+    };
     let check = |bytes: &[u8], format: Format| -> Mesh {
         let found = read(bytes, format).unwrap().mesh;
         assert_eq!(bits(&found), bits(&mesh), "{format:?}");
@@ -76,7 +81,10 @@ fn indices_may_be_relative_and_vertices_weighted() {
     let mesh = obj("v 0 0 0\nv 1 0 0 2\nv 0 1 0\nf -3/1/1 -2//4 -1\n").unwrap();
     assert_eq!(mesh.face(0), [0, 1, 2]);
     assert_eq!(mesh.weights(), Some(&[1.0, 2.0, 1.0][..]));
-    assert_eq!(obj("v 0 0 0\nv 1 0 0\nv 0 1 \\\n0\nf 1 2 3\n").unwrap().points().len(), 3);
+    assert_eq!(
+        obj("v 0 0 0\nv 1 0 0\nv 0 1 \\\n0\nf 1 2 3\n").unwrap().points().len(),
+        3
+    );
 }
 
 const THREE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
@@ -97,15 +105,27 @@ fn bad_files_are_refused_in_one_line_that_says_what_is_accepted() {
         (String::new(), "no faces"),
         (THREE.to_owned(), "no faces"),
         (format!("{THREE}f 1 2 3\nt crease 2/1/0 0 7 1\n"), "no vertex 7"),
-        (format!("{square}f 1 2 3 4\nt crease 2/1/0 0 2 1\n"), "edge 0-2 (line 8)"),
+        (
+            format!("{square}f 1 2 3 4\nt crease 2/1/0 0 2 1\n"),
+            "edge 0-2 (line 8)",
+        ),
         (format!("{THREE}f 1 2 3\nt crease 2/1/0 0 1 -1\n"), "negative"),
         (format!("{THREE}f 1 2 3\nt crease 2/1/0 0 1 nan\n"), "finite"),
-        (format!("{THREE}f 1 2 3\nt crease 99999999999999999999/1/0 0 1\n"), "counts"),
-        (format!("{THREE}f 1 2 3\nt crease 18446744073709551615/9/0 0 1\n"), "announces"),
+        (
+            format!("{THREE}f 1 2 3\nt crease 99999999999999999999/1/0 0 1\n"),
+            "counts",
+        ),
+        (
+            format!("{THREE}f 1 2 3\nt crease 18446744073709551615/9/0 0 1\n"),
+            "announces",
+        ),
         (format!("{THREE}f 1 2 3\nt corner 1/1/0 x 1\n"), "no vertex number"),
         // the second face runs along the shared edge in the same direction
         (format!("{square}f 1 2 3 4\nf 2 3 6 5\n"), "turned over"),
-        (format!("{square}f 1 2 3 4\nf 3 2 5 6\nf 3 2 1\n"), "edge 1-2 (line 9) has three faces"),
+        (
+            format!("{square}f 1 2 3 4\nf 3 2 5 6\nf 3 2 1\n"),
+            "edge 1-2 (line 9) has three faces",
+        ),
         (
             "v 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nf 1 2 3\nf 1 4 5\n".to_owned(),
             "vertex 0 (line 1) joins several fans",
@@ -134,12 +154,18 @@ fn headers_that_announce_too_much_cost_nothing() {
     let mut bytes = ply.as_bytes().to_vec();
     bytes.extend([0; 24]);
     let error = read(&bytes[..], Format::Ply).unwrap_err().to_string();
-    assert!(error.contains("face 0 of 1000000000000") && error.contains("ends"), "{error}");
+    assert!(
+        error.contains("face 0 of 1000000000000") && error.contains("ends"),
+        "{error}"
+    );
     let error = read(&bytes[..bytes.len() - 10], Format::Ply).unwrap_err().to_string();
     assert!(error.contains("vertex 0 of 1"), "{error}");
     let off = "OFF\n3 99999999999 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
     let error = read(off.as_bytes(), Format::Off).unwrap_err().to_string();
-    assert!(error.contains("1 of 99999999999 faces") && error.contains("line 6"), "{error}");
+    assert!(
+        error.contains("1 of 99999999999 faces") && error.contains("line 6"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -204,6 +230,10 @@ proptest! {
 #[test]
 fn golden_files_are_surfaces() {
     for name in ["cube", "pyramid", "tent", "nonquads"] {
-        assert!(load(&own(&format!("opensubdiv/catmark_{name}.obj"))).defects().is_empty());
+        assert!(
+            load(&own(&format!("opensubdiv/catmark_{name}.obj")))
+                .defects()
+                .is_empty()
+        );
     }
 }

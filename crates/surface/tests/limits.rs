@@ -12,7 +12,11 @@ use serde_json::Value;
 use std::path::Path;
 
 fn vector(value: &Value) -> Vector3<f64> {
-    Vector3::new(value[0].as_f64().unwrap(), value[1].as_f64().unwrap(), value[2].as_f64().unwrap())
+    Vector3::new(
+        value[0].as_f64().unwrap(),
+        value[1].as_f64().unwrap(),
+        value[2].as_f64().unwrap(),
+    )
 }
 
 struct Worst(Vec<String>, usize);
@@ -21,7 +25,8 @@ impl Worst {
     fn check(&mut self, label: impl Fn() -> String, error: f64, tolerance: f64) {
         self.1 += 1;
         if !(error <= tolerance) {
-            self.0.push(format!("{}: off by {error:.1e}, allowed {tolerance:.1e}", label()));
+            self.0
+                .push(format!("{}: off by {error:.1e}, allowed {tolerance:.1e}", label()));
         }
     }
 }
@@ -54,8 +59,17 @@ fn compare(mesh: &Mesh, case: &Value, worst: &mut Worst) {
                 list.sort_unstable();
                 list
             };
-            let faces = sorted(expected["faces"].as_array().unwrap().iter().map(|f| f.as_u64().unwrap()).collect());
-            let fan = found.iter().find(|fan| sorted(fan.faces.iter().map(|&f| u64::from(f)).collect()) == faces);
+            let faces = sorted(
+                expected["faces"]
+                    .as_array()
+                    .unwrap()
+                    .iter()
+                    .map(|f| f.as_u64().unwrap())
+                    .collect(),
+            );
+            let fan = found
+                .iter()
+                .find(|fan| sorted(fan.faces.iter().map(|&f| u64::from(f)).collect()) == faces);
             let fan = fan.unwrap_or_else(|| panic!("{}: no fan {faces:?}", label()));
             match (&fan.sample.normal, expected["normal"].is_null()) {
                 (None, true) => assert!(matches!(fan.sample.kind, Kind::Undefined(_))),
@@ -78,7 +92,9 @@ fn compare(mesh: &Mesh, case: &Value, worst: &mut Worst) {
             s: number("s"),
             t: number("t"),
         };
-        let found = surface.at(place).unwrap_or_else(|error| panic!("{shape} sample {index}: {error}"));
+        let found = surface
+            .at(place)
+            .unwrap_or_else(|error| panic!("{shape} sample {index}: {error}"));
         let label = |what: &'static str| move || format!("{shape} sample {index} {what}");
         let depth = number("depth");
         let (two, four) = (2_f64.powf(depth), 4_f64.powf(depth));
@@ -104,7 +120,11 @@ fn compare(mesh: &Mesh, case: &Value, worst: &mut Worst) {
         let delta = 1e-15 * four / mu + 1e-14;
         let normal = vector(&sample["normal"]);
         let tolerance = f64::max(1e-14 * two / mu.sqrt(), 1e-13);
-        worst.check(label("normal"), (found.normal.unwrap() - normal).norm(), tolerance.min(1e-10));
+        worst.check(
+            label("normal"),
+            (found.normal.unwrap() - normal).norm(),
+            tolerance.min(1e-10),
+        );
         let (gauss, mean) = (number("gauss"), number("mean"));
         let root = (mean * mean - gauss).max(0.0).sqrt();
         let tolerance = 10.0 * (2.0 * delta + 1e-14 * mean.abs());
@@ -117,9 +137,15 @@ fn compare(mesh: &Mesh, case: &Value, worst: &mut Worst) {
 fn all(limits: &Path, shapes: &Path) {
     let mut worst = Worst(Vec::new(), 0);
     let mut count = 0;
-    let mut paths: Vec<_> = std::fs::read_dir(limits).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let mut paths: Vec<_> = std::fs::read_dir(limits)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .collect();
     paths.sort();
-    for path in paths.iter().filter(|path| path.extension().is_some_and(|e| e == "json")) {
+    for path in paths
+        .iter()
+        .filter(|path| path.extension().is_some_and(|e| e == "json"))
+    {
         let case = json(path);
         let name = format!("{}.obj", case["shape"].as_str().unwrap());
         let beside = limits.join(&name);
@@ -132,7 +158,13 @@ fn all(limits: &Path, shapes: &Path) {
         count += 1;
     }
     assert!(count > 0 && worst.1 > 100);
-    assert!(worst.0.is_empty(), "{} of {} differ:\n{}", worst.0.len(), worst.1, worst.0[..worst.0.len().min(40)].join("\n"));
+    assert!(
+        worst.0.is_empty(),
+        "{} of {} differ:\n{}",
+        worst.0.len(),
+        worst.1,
+        worst.0[..worst.0.len().min(40)].join("\n")
+    );
 }
 
 #[test]
@@ -140,5 +172,86 @@ fn limits_of_independent_evaluations() {
     all(&own("limits"), &own("opensubdiv"));
     if let (Some(limits), Some(shapes)) = (shared("reference/limits"), shared("data/opensubdiv")) {
         all(&limits, &shapes);
+    }
+}
+
+/// Limit points of arbitrary places are the combinations that their stencils say, and regular parts are
+/// bicubic B-splines.
+#[test]
+fn stencils_reproduce_points_and_regular_parts_are_splines() {
+    let rules = rules("catmull-clark");
+    for mesh in [
+        eigenring_surface::shapes::propeller(5),
+        eigenring_surface::shapes::star(5, 2),
+    ] {
+        let surface = Surface::new(&mesh, &rules).unwrap();
+        for place in surface.grid(1).into_iter().step_by(3) {
+            let stencil = surface.stencil(place).unwrap();
+            let sum: f64 = stencil.iter().map(|(_, w)| w).sum();
+            let terms = stencil.iter().map(|&(v, w)| mesh.points()[v as usize].coords * w);
+            let point: Vector3<f64> = terms.sum();
+            assert!((sum - 1.0).abs() < 1e-14);
+            assert!((point - surface.at(place).unwrap().position.coords).norm() < 1e-13);
+        }
+    }
+    let torus = eigenring_surface::shapes::torus(9, 7);
+    let surface = Surface::new(&torus, &rules).unwrap();
+    let at = |i: i32, j: i32| torus.points()[(i.rem_euclid(9) * 7 + j.rem_euclid(7)) as usize].coords;
+    for (i, j) in (0..9).flat_map(|i| (0..7).map(move |j| (i, j))) {
+        let (s, t) = (0.1 + f64::from(i) / 10.0, 0.9 - f64::from(j) / 10.0);
+        let sample = surface
+            .at(Place {
+                face: (i * 7 + j) as u32,
+                sub: 0,
+                corner: 0,
+                s,
+                t,
+            })
+            .unwrap();
+        let (in_s, in_t) = (
+            eigenring_spline::uniform::basis(3, s),
+            eigenring_spline::uniform::basis(3, t),
+        );
+        let sum = |a: usize, b: usize| -> Vector3<f64> {
+            (0..16)
+                .map(|k| at(i + k % 4 - 1, j + k / 4 - 1) * in_s[a][(k % 4) as usize] * in_t[b][(k / 4) as usize])
+                .sum()
+        };
+        assert!((sample.position.coords - sum(0, 0)).norm() < 1e-13);
+        let (first, second) = (sample.first.unwrap(), sample.second.unwrap());
+        assert!((first[0] - sum(1, 0)).norm() < 1e-13 && (first[1] - sum(0, 1)).norm() < 1e-13);
+        assert!((second[0] - sum(2, 0)).norm() < 1e-13 && (second[1] - sum(1, 1)).norm() < 1e-13);
+    }
+}
+
+/// Beside a centre, at any depth: self-similarity carries a sample of depth 3 exactly to depth 3 + m for the
+/// characteristic configuration, whose net refinement multiplies by lambda.
+#[test]
+fn curvature_keeps_its_digits_at_any_depth() {
+    let rules = rules("catmull-clark");
+    for n in [3, 5, 7] {
+        let star = eigenring_surface::shapes::star(n, 3);
+        let surface = Surface::new(&star, &rules).unwrap();
+        let at = |depth: i32| {
+            let (s, t) = (0.7 * 0.5_f64.powi(depth), 0.3 * 0.5_f64.powi(depth));
+            surface
+                .at(Place {
+                    face: 0,
+                    sub: 0,
+                    corner: 0,
+                    s,
+                    t,
+                })
+                .unwrap()
+        };
+        // far in, K grows by a factor a level that tends to a limit: its ratio is smooth to the last digits
+        let ratio = |depth: i32| at(depth + 1).gauss.unwrap() / at(depth).gauss.unwrap();
+        let normal = at(0).normal.unwrap();
+        assert!(normal.norm() - 1.0 < 1e-15);
+        for depth in [120, 200, 300] {
+            let jump = ratio(depth) / ratio(depth + 1) - 1.0;
+            assert!(jump.abs() < 1e-10, "N = {n} depth {depth}: {jump:e}");
+            assert!(at(depth).position.coords.norm().is_finite());
+        }
     }
 }

@@ -29,7 +29,10 @@ fn opensubdiv(folder: &Path) -> usize {
         let distance = distance(found.points(), expected.points());
         assert!(distance <= 2e-6, "{name}: {distance:e}");
         let (a, b) = (centroid_sums(&found), centroid_sums(&expected));
-        assert!((0..2).all(|i| (a[i] - b[i]).abs() < 1e-5 * (1.0 + b[0])), "{name}: {a:?} {b:?}");
+        assert!(
+            (0..2).all(|i| (a[i] - b[i]).abs() < 1e-5 * (1.0 + b[0])),
+            "{name}: {a:?} {b:?}"
+        );
     }
     names.len()
 }
@@ -42,7 +45,12 @@ fn refinements_of_opensubdiv() {
     }
 }
 
-fn runs(path: &Path, scheme: impl Fn(&serde_json::Value) -> String, boundary: Option<Boundary>, tolerance: f64) -> usize {
+fn runs(
+    path: &Path,
+    scheme: impl Fn(&serde_json::Value) -> String,
+    boundary: Option<Boundary>,
+    tolerance: f64,
+) -> usize {
     let case = json(path);
     let runs = case["runs"].as_array().unwrap();
     for run in runs {
@@ -54,19 +62,28 @@ fn runs(path: &Path, scheme: impl Fn(&serde_json::Value) -> String, boundary: Op
         refiner.boundary = boundary;
         let levels = run["levels"].as_u64().unwrap() as usize;
         let label = format!("{} {spec} {levels}", path.display());
-        let found = refiner.refined(&control, levels).unwrap_or_else(|error| panic!("{label}: {error}"));
+        let found = refiner
+            .refined(&control, levels)
+            .unwrap_or_else(|error| panic!("{label}: {error}"));
         let expected = points(&run["positions"]);
         assert_eq!(found.points().len(), expected.len(), "{label}");
         let distance = distance(found.points(), &expected);
         assert!(distance <= tolerance, "{label}: {distance:e}");
         for (size, count) in run["faces_by_size"].as_object().unwrap() {
             let size: usize = size.parse().unwrap();
-            assert_eq!(found.faces_by_size().get(&size).copied(), count.as_u64().map(|n| n as usize), "{label}");
+            assert_eq!(
+                found.faces_by_size().get(&size).copied(),
+                count.as_u64().map(|n| n as usize),
+                "{label}"
+            );
         }
         let sums = centroid_sums(&found);
         for (found, expected) in sums.iter().zip(run["centroid_sums"].as_array().unwrap()) {
             let expected = expected.as_f64().unwrap();
-            assert!((found - expected).abs() <= 1e-12 * (1.0 + sums[0]), "{label}: {found} {expected}");
+            assert!(
+                (found - expected).abs() <= 1e-12 * (1.0 + sums[0]),
+                "{label}: {found} {expected}"
+            );
         }
     }
     runs.len()

@@ -17,7 +17,9 @@ use std::process::ExitCode;
 /// Curvature of a whole surface: extremes, means over the area, the total against Gauss and Bonnet, and what
 /// happens at irregular vertices.
 #[derive(Args, Debug)]
-#[command(after_help = "Examples:\n  eigenring curvature spot.obj --scheme catmull-clark\n  eigenring curvature cube.obj --scheme lambda:optimal --radii 1e-1..1e-6 --format json")]
+#[command(
+    after_help = "Examples:\n  eigenring curvature spot.obj --scheme catmull-clark\n  eigenring curvature cube.obj --scheme lambda:optimal --radii 1e-1..1e-6 --format json"
+)]
 pub struct Arguments {
     /// The control mesh: .obj, .off or .ply
     #[arg(value_name = "FILE")]
@@ -47,8 +49,15 @@ impl Arguments {
         let Some((first, last)) = self.radii.split_once("..") else {
             return self.radii.split(',').map(number).collect();
         };
-        let (first, last) = (number(first)?.log10().round() as i32, number(last)?.log10().round() as i32);
-        let steps: Vec<i32> = if first >= last { (last..=first).rev().collect() } else { (first..=last).collect() };
+        let (first, last) = (
+            number(first)?.log10().round() as i32,
+            number(last)?.log10().round() as i32,
+        );
+        let steps: Vec<i32> = if first >= last {
+            (last..=first).rev().collect()
+        } else {
+            (first..=last).collect()
+        };
         Ok(steps.into_iter().map(|power| 10_f64.powi(power)).collect())
     }
 
@@ -71,9 +80,7 @@ impl Arguments {
         })??;
         let totals = found.totals;
         let range = |extremes: &Extremes| {
-            let end = |(value, place): (f64, eigenring_surface::Place)| {
-                json!({ "value": value, "face": place.face, "sub": place.sub, "s": place.s, "t": place.t })
-            };
+            let end = |(value, place): (f64, eigenring_surface::Place)| json!({ "value": value, "face": place.face, "sub": place.sub, "s": place.s, "t": place.t });
             json!({ "min": end(extremes.least), "max": end(extremes.greatest) })
         };
         let fields = Fields(vec![

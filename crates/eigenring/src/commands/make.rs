@@ -11,7 +11,9 @@ use std::process::ExitCode;
 
 /// Write a control mesh to begin with.
 #[derive(Args, Debug)]
-#[command(after_help = "Examples:\n  eigenring make torus -o torus.obj\n  eigenring make star -n 7 --rings 3 -o star7.obj")]
+#[command(
+    after_help = "Examples:\n  eigenring make torus -o torus.obj\n  eigenring make star -n 7 --rings 3 -o star7.obj"
+)]
 pub struct Arguments {
     /// The shape
     #[arg(value_enum, value_name = "SHAPE")]

@@ -10,6 +10,7 @@ mod matrix;
 mod mesh;
 mod objective;
 mod plot;
+mod render;
 mod reproduce;
 mod spectrum;
 mod stencil;
@@ -57,6 +58,7 @@ enum Command {
     Limit(limit::Arguments),
     Make(make::Arguments),
     Curvature(curvature::Arguments),
+    Render(render::Arguments),
     Plot(plot::Arguments),
     Reproduce(reproduce::Arguments),
     Completions(completions::Arguments),
@@ -81,6 +83,7 @@ impl Cli {
             Command::Limit(arguments) => arguments.run(),
             Command::Make(arguments) => arguments.run(),
             Command::Curvature(arguments) => arguments.run(),
+            Command::Render(arguments) => arguments.run(),
             Command::Plot(arguments) => arguments.run(),
             Command::Reproduce(arguments) => arguments.run(),
             Command::Completions(arguments) => arguments.run(),

@@ -2,9 +2,9 @@
 
 use crate::args::{self, Output};
 use crate::error::Error;
+use crate::files;
 use crate::memory;
 use crate::progress::note;
-use crate::files;
 use clap::{Args, ValueEnum};
 use eigenring_atlas::meshes::{self, Pool};
 use eigenring_atlas::schemes::SchemeName;
@@ -121,7 +121,10 @@ impl Arguments {
         let format = self.out.as_deref().map(meshes::written_format).transpose()?;
         let output = self.output.format();
         if matches!(output, Format::Csv | Format::Latex) {
-            return Err(Error::usage("a refined mesh is described in fields", "--format text or json"));
+            return Err(Error::usage(
+                "a refined mesh is described in fields",
+                "--format text or json",
+            ));
         }
         let mesh = self.surface.mesh(&self.file)?;
         let rules = self.surface.rules(&self.scheme, &mesh)?;

@@ -110,7 +110,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<MeshFile, Error> {
             .push("vertices have a fourth coordinate, which no rule here uses; it is kept".to_owned());
     }
     if coloured {
-        file.notices.push("numbers beyond the fourth of vertices are left out".to_owned());
+        file.notices
+            .push("numbers beyond the fourth of vertices are left out".to_owned());
     }
     Ok(file)
 }
@@ -152,7 +153,11 @@ impl<'a> Tag<'a> {
         let points = mesh.points().len();
         if name != "interpolateboundary" {
             // an integer beyond the first two of 'steps' is the number of steps
-            let count = if name == "steps" { self.integers.len().saturating_sub(1) } else { self.integers.len() };
+            let count = if name == "steps" {
+                self.integers.len().saturating_sub(1)
+            } else {
+                self.integers.len()
+            };
             if let Some(bad) = self.integers[..count].iter().find(|&&v| v as usize >= points) {
                 return refuse(
                     format!("there is no vertex {bad}, there are {points}"),
@@ -223,7 +228,10 @@ impl<'a> Tag<'a> {
     }
 
     fn steps(&self, word: &str) -> Result<u32, Error> {
-        let whole = word.parse::<f64>().ok().filter(|x| *x >= 0.0 && x.fract() == 0.0 && *x < 1e6);
+        let whole = word
+            .parse::<f64>()
+            .ok()
+            .filter(|x| *x >= 0.0 && x.fract() == 0.0 && *x < 1e6);
         whole.map(|x| x as u32).ok_or_else(|| {
             syntax(
                 Some(self.line),

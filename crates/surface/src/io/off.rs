@@ -18,7 +18,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<MeshFile, Error> {
         .trim()
         .to_owned();
     let (line, counts) = if counts.is_empty() {
-        lines.next().ok_or_else(|| syntax(Some(line), "there are no counts", HEAD))?
+        lines
+            .next()
+            .ok_or_else(|| syntax(Some(line), "there are no counts", HEAD))?
     } else {
         (line, counts)
     };
@@ -37,7 +39,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<MeshFile, Error> {
         )
     };
     for index in 0..vertices {
-        let (line, text) = lines.next().ok_or_else(|| ended(last, "vertices", index as usize, vertices))?;
+        let (line, text) = lines
+            .next()
+            .ok_or_else(|| ended(last, "vertices", index as usize, vertices))?;
         let words: Vec<&str> = text.split_whitespace().collect();
         if words.len() < 3 {
             return Err(syntax(
@@ -53,7 +57,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<MeshFile, Error> {
         last = line;
     }
     for index in 0..faces {
-        let (line, text) = lines.next().ok_or_else(|| ended(last, "faces", index as usize, faces))?;
+        let (line, text) = lines
+            .next()
+            .ok_or_else(|| ended(last, "faces", index as usize, faces))?;
         let mut words = text.split_whitespace();
         let count = words.next().unwrap_or_default();
         let refuse = |what: String| {

@@ -189,7 +189,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<MeshFile, Error> {
             // elements without properties have no bytes, however many are announced
             continue;
         }
-        let coordinate = |name| element.properties.iter().position(|p| p.name == name && p.list.is_none());
+        let coordinate = |name| {
+            element
+                .properties
+                .iter()
+                .position(|p| p.name == name && p.list.is_none())
+        };
         let axes = ["x", "y", "z"].map(coordinate);
         let is_vertex = element.name == "vertex";
         if is_vertex && axes.contains(&None) {

@@ -113,7 +113,11 @@ fn annulus(local: &Local, rows: &[Row], rules: &Rules, reach: Reach, depth: usiz
     let mut quarters = Vec::with_capacity(4);
     for corner in 0..4 {
         let child = local.child(&refined, corner, reach).ok_or_else(missing)?;
-        let fine: Vec<Row> = child.ids.iter().map(|&id| over(&composed(&refined, id), rows)).collect();
+        let fine: Vec<Row> = child
+            .ids
+            .iter()
+            .map(|&id| over(&composed(&refined, id), rows))
+            .collect();
         quarters.push(annulus(&child, &fine, rules, reach, depth - 1)?);
     }
     let quarters: [Annulus; 4] = quarters.try_into().map_err(|_| missing())?;
@@ -159,7 +163,9 @@ impl Centre {
         for eigenvalue in block.eigenvalues().ok()?.iter().skip(1) {
             let modulus = eigenvalue.value.0.hypot(eigenvalue.value.1);
             let in_pair = self.pair.as_ref().is_ok_and(|pair| {
-                pair.lambda.iter().any(|lambda| (modulus - lambda).abs() < EQUAL * lambda)
+                pair.lambda
+                    .iter()
+                    .any(|lambda| (modulus - lambda).abs() < EQUAL * lambda)
             });
             if in_pair || modulus == last || modulus < 1e-3 {
                 continue;
@@ -169,7 +175,10 @@ impl Centre {
                 continue;
             };
             for left in space.left {
-                let part = left.iter().zip(heights).fold([0.0, 0.0], |sum, (l, z)| [sum[0] + l.0 * z, sum[1] + l.1 * z]);
+                let part = left
+                    .iter()
+                    .zip(heights)
+                    .fold([0.0, 0.0], |sum, (l, z)| [sum[0] + l.0 * z, sum[1] + l.1 * z]);
                 // functionals have unit length
                 if part[0].hypot(part[1]) > 1e-10 * size {
                     return Some(modulus);
@@ -183,7 +192,10 @@ impl Centre {
 fn block(matrix: &[Row]) -> Block<f64> {
     let weight = |row: usize, column: usize| {
         let terms = &matrix[row];
-        terms.iter().find(|(at, _)| *at as usize == column).map_or(0.0, |term| term.1)
+        terms
+            .iter()
+            .find(|(at, _)| *at as usize == column)
+            .map_or(0.0, |term| term.1)
     };
     Block::Real(Matrix::from_fn(matrix.len(), matrix.len(), weight))
 }
@@ -200,7 +212,10 @@ fn limit(matrix: &[Row]) -> Vec<f64> {
                 next[at as usize] += weight * w;
             }
         }
-        let change = next.iter().zip(&weights).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+        let change = next
+            .iter()
+            .zip(&weights)
+            .fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
         weights = next;
         if change < 1e-18 {
             break;
@@ -217,7 +232,10 @@ fn pair(matrix: &[Row], topology: &Topology) -> Result<Result<Pair, Undefined>, 
     let block = block(matrix);
     let found = block.eigenvalues()?;
     let modulus = |value: (f64, f64)| value.0.hypot(value.1);
-    let all: Vec<(f64, f64)> = found.iter().flat_map(|e| std::iter::repeat_n(e.value, e.multiplicity)).collect();
+    let all: Vec<(f64, f64)> = found
+        .iter()
+        .flat_map(|e| std::iter::repeat_n(e.value, e.multiplicity))
+        .collect();
     let refuse = |why| Ok(Err(why));
     let [one, first, second, rest @ ..] = all.as_slice() else {
         return refuse(Undefined::NotDominant);
@@ -231,7 +249,11 @@ fn pair(matrix: &[Row], topology: &Topology) -> Result<Result<Pair, Undefined>, 
         vectors.iter().map(|v| v.iter().map(|x| x.0).collect()).collect()
     };
     let (mut right, mut left) = (Vec::new(), Vec::new());
-    let values = if first == second { vec![*first] } else { vec![*first, *second] };
+    let values = if first == second {
+        vec![*first]
+    } else {
+        vec![*first, *second]
+    };
     for value in values {
         let space = block.eigenspace(value, 0)?;
         right.extend(real_part(&space.right));
@@ -247,7 +269,8 @@ fn pair(matrix: &[Row], topology: &Topology) -> Result<Result<Pair, Undefined>, 
     if determinant.abs() < 1e-12 {
         return refuse(Undefined::Defective);
     }
-    let mixed = |a: f64, b: f64| -> Vec<f64> { l0.iter().zip(l1).map(|(x, y)| (a * x + b * y) / determinant).collect() };
+    let mixed =
+        |a: f64, b: f64| -> Vec<f64> { l0.iter().zip(l1).map(|(x, y)| (a * x + b * y) / determinant).collect() };
     let mut left = [mixed(gram[1][1], -gram[0][1]), mixed(-gram[1][0], gram[0][0])];
     let mut right: Vec<[f64; 2]> = r0.iter().zip(r1).map(|(&x, &y)| [x, y]).collect();
     // the ends of the spokes must run round the centre once
@@ -323,7 +346,11 @@ impl Ladder {
             let a = [combined(&pair.left[0]), combined(&pair.left[1])];
             // rounding of the coordinates themselves: tangents below it are none
             let least = 1e-13 * scale.max(f64::MIN_POSITIVE) * scale;
-            if a[0].cross(&a[1]).norm() > least { Ok(a) } else { Err(Undefined::Degenerate) }
+            if a[0].cross(&a[1]).norm() > least {
+                Ok(a)
+            } else {
+                Err(Undefined::Degenerate)
+            }
         });
         let mut frame = [Vector3::x(), Vector3::y(), Vector3::z()];
         let (mut lambda, mut ratio, mut plane) = (1.0, 1.0, [[0.0; 2]; 2]);

@@ -194,7 +194,11 @@ impl<'s, 'r> Evaluator<'s, 'r> {
             // the corner of the quarter, counted from the corner of the place
             let quarter = quarter as u32;
             let corner = half / 4 * 4 + (half + quarter) % 4;
-            let corner = if levels + 1 == self.surface.lift { half_of(control, half, quarter) } else { corner };
+            let corner = if levels + 1 == self.surface.lift {
+                half_of(control, half, quarter)
+            } else {
+                corner
+            };
             half = 4 * corner + (4 - quarter) % 4;
         }
         Ok((half, s, t, scale))
@@ -209,7 +213,11 @@ fn half_of(control: &crate::Mesh, half: u32, further: u32) -> u32 {
 }
 
 fn reach(surface: &Surface<'_>) -> Reach {
-    if surface.rules.reaches_beyond_vertex() { Reach::Two } else { Reach::One }
+    if surface.rules.reaches_beyond_vertex() {
+        Reach::Two
+    } else {
+        Reach::One
+    }
 }
 
 fn node(surface: &Surface<'_>, local: Local, deepest: usize) -> Result<Node, Error> {
@@ -232,7 +240,11 @@ fn node(surface: &Surface<'_>, local: Local, deepest: usize) -> Result<Node, Err
         if let &[corner] = irregular.as_slice() {
             let turned = local.turned(corner, reach);
             let key = turned.key();
-            let known = surface.centres.lock().ok().and_then(|centres| centres.get(&key).cloned());
+            let known = surface
+                .centres
+                .lock()
+                .ok()
+                .and_then(|centres| centres.get(&key).cloned());
             if let Some(centre) = known {
                 let ladder = Box::new(Ladder::new(&centre, turned.mesh.points()));
                 return Ok(Node::Centre(corner, centre, ladder));
@@ -253,17 +265,14 @@ fn node(surface: &Surface<'_>, local: Local, deepest: usize) -> Result<Node, Err
         return Err(missing());
     }
     let refined = local.refined(rules)?;
-    Ok(Node::Inner(Box::new(local), Box::new(refined), [None, None, None, None]))
+    Ok(Node::Inner(
+        Box::new(local),
+        Box::new(refined),
+        [None, None, None, None],
+    ))
 }
 
-fn descend(
-    surface: &Surface<'_>,
-    at: &mut Node,
-    s: f64,
-    t: f64,
-    scale: f64,
-    deepest: usize,
-) -> Result<Sample, Error> {
+fn descend(surface: &Surface<'_>, at: &mut Node, s: f64, t: f64, scale: f64, deepest: usize) -> Result<Sample, Error> {
     match at {
         Node::Regular(points) => Ok(regular(&jet(points, s, t), scale)),
         Node::Centre(corner, centre, ladder) => Ok(beside(*corner, centre, ladder, s, t, scale)),
@@ -272,7 +281,9 @@ fn descend(
             let child = match &mut children[quarter] {
                 Some(child) => child,
                 empty => {
-                    let part = local.child(refined, quarter as u32, reach(surface)).ok_or_else(missing)?;
+                    let part = local
+                        .child(refined, quarter as u32, reach(surface))
+                        .ok_or_else(missing)?;
                     empty.insert(Box::new(node(surface, part, deepest - 1)?))
                 }
             };
@@ -298,7 +309,11 @@ fn regular(jet: &Jet3, scale: f64) -> Sample {
         gauss: curved.as_ref().map(|c| c.gauss),
         mean: curved.as_ref().map(|c| c.mean),
         principal: curved.as_ref().map(|c| c.principal),
-        kind: if curved.is_some() { Kind::Regular } else { Kind::Undefined(Undefined::Degenerate) },
+        kind: if curved.is_some() {
+            Kind::Regular
+        } else {
+            Kind::Undefined(Undefined::Degenerate)
+        },
     }
 }
 
@@ -348,7 +363,11 @@ fn beside(corner: u32, centre: &Centre, ladder: &mut Ladder, s: f64, t: f64, sca
         gauss: curved.as_ref().map(|c| c.gauss),
         mean: curved.as_ref().map(|c| c.mean),
         principal: curved.as_ref().map(|c| c.principal),
-        kind: if curved.is_some() { Kind::Regular } else { Kind::Undefined(Undefined::Degenerate) },
+        kind: if curved.is_some() {
+            Kind::Regular
+        } else {
+            Kind::Undefined(Undefined::Degenerate)
+        },
     }
 }
 

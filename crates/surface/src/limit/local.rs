@@ -75,7 +75,13 @@ impl Source<'_> {
                 return INFINITE;
             }
         }
-        self.mesh.features.corners.get(&vertex).copied().unwrap_or(0.0).min(INFINITE)
+        self.mesh
+            .features
+            .corners
+            .get(&vertex)
+            .copied()
+            .unwrap_or(0.0)
+            .min(INFINITE)
     }
 
     /// The corners of faces around the origin of a half-edge, itself first, then counter-clockwise, then back.
@@ -176,7 +182,9 @@ impl Source<'_> {
             // of a vertex that stays only one fan is here
             let stays = cut && self.sharp_spokes(id) > 2;
             if own > 0.0 || stays {
-                mesh.features.corners.insert(number as u32, if stays { INFINITE } else { own });
+                mesh.features
+                    .corners
+                    .insert(number as u32, if stays { INFINITE } else { own });
             }
         }
         let named = ids
@@ -226,7 +234,13 @@ impl Local {
         if self.named.is_empty() {
             return step(&self.mesh, &self.topology, rules, 0, Ends::Open);
         }
-        step(&self.mesh, &self.topology, &rules.renumbered(&self.named), 0, Ends::Open)
+        step(
+            &self.mesh,
+            &self.topology,
+            &rules.renumbered(&self.named),
+            0,
+            Ends::Open,
+        )
     }
 
     /// The quarter of the face at one of its corners, counted so that parameters run as on the face.

@@ -71,7 +71,9 @@ impl Surface<'_> {
         if n == 0 {
             return Ok(Vec::new());
         }
-        let sharp: Vec<usize> = (0..n).filter(|&i| source.sharpness(fan.spokes[i]) >= INFINITE).collect();
+        let sharp: Vec<usize> = (0..n)
+            .filter(|&i| source.sharpness(fan.spokes[i]) >= INFINITE)
+            .collect();
         let count = source.sharp_spokes(vertex);
         let rule = match count {
             _ if source.own(vertex) >= INFINITE => Rule::Corner,
@@ -128,7 +130,13 @@ fn merged(mut first: Sample, other: &Sample) -> Sample {
             gauss: join(a, c),
             mean: join(b, d),
         },
-        (Kind::Unbounded { exponent, signs }, Kind::Unbounded { exponent: other, signs: more }) => Kind::Unbounded {
+        (
+            Kind::Unbounded { exponent, signs },
+            Kind::Unbounded {
+                exponent: other,
+                signs: more,
+            },
+        ) => Kind::Unbounded {
             exponent: exponent.min(other),
             signs: join(signs, more),
         },

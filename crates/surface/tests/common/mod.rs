@@ -9,7 +9,9 @@ use std::path::{Path, PathBuf};
 
 /// Small cases of the repository.
 pub fn own(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/data/surfaces").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../tests/data/surfaces")
+        .join(name)
 }
 
 /// The large collection beside the repository, if it is there.
@@ -18,14 +20,20 @@ pub fn shared(name: &str) -> Option<PathBuf> {
     if path.exists() {
         return Some(path);
     }
-    eprintln!("SKIPPED: {} is not there; the selection in tests/data/surfaces was checked", path.display());
+    eprintln!(
+        "SKIPPED: {} is not there; the selection in tests/data/surfaces was checked",
+        path.display()
+    );
     None
 }
 
 pub fn load(path: &Path) -> Mesh {
     let format = Format::of_extension(&path.extension().unwrap().to_string_lossy()).unwrap();
     let file = std::fs::File::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    read(file, format).unwrap().surface().unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+    read(file, format)
+        .unwrap()
+        .surface()
+        .unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
 pub fn json(path: &Path) -> serde_json::Value {
@@ -46,7 +54,11 @@ pub fn points(value: &serde_json::Value) -> Vec<Point3<f64>> {
 pub fn mesh(value: &serde_json::Value) -> Mesh {
     let faces = value["faces"].as_array().unwrap().iter();
     let face = |f: &serde_json::Value| -> Vec<u32> {
-        f.as_array().unwrap().iter().map(|i| i.as_u64().unwrap() as u32).collect()
+        f.as_array()
+            .unwrap()
+            .iter()
+            .map(|i| i.as_u64().unwrap() as u32)
+            .collect()
     };
     Mesh::new(points(&value["vertices"]), faces.map(face)).unwrap()
 }

@@ -1,0 +1,143 @@
+//! `eigenring render`: pictures of surfaces.
+
+use super::subdivide::SurfaceArgs;
+use crate::args;
+use crate::error::Error;
+use crate::files;
+use clap::{Args, ValueEnum};
+use eigenring_atlas::render::{Settings, Show, render};
+use eigenring_atlas::schemes::SchemeList;
+use eigenring_surface::{Rules, Surface};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Draw surfaces as PNG, several schemes side by side.
+///
+/// Normals and curvatures are those of the limit surface at every sample. Colours of curvature mean the same
+/// in all pictures of a row; values beyond the colours are black.
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Examples:\n  eigenring render spot.obj --schemes catmull-clark,lambda:optimal --show highlight --up y -o lines.png\n  eigenring render torus.obj --schemes catmull-clark --show gauss -o gauss.png"
+)]
+pub struct Arguments {
+    /// The control mesh: .obj, .off or .ply
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Schemes, in the order of the pictures
+    #[arg(long, value_name = "SPEC,..")]
+    schemes: SchemeList,
+    /// What is shown
+    #[arg(long, value_enum, default_value = "shaded")]
+    show: ShowArg,
+    /// Azimuth and elevation of the eye in degrees, and the enlargement
+    #[arg(long, value_name = "AZ,EL,ZOOM", default_value = "-60,28,1", value_parser = numbers, allow_hyphen_values = true)]
+    view: Numbers,
+    /// Azimuth and elevation of the light in degrees, from the eye
+    #[arg(long, value_name = "AZ,EL", default_value = "-25,25", value_parser = numbers, allow_hyphen_values = true)]
+    light: Numbers,
+    /// The number of stripes over the size of the surface
+    #[arg(long, value_name = "COUNT", default_value = "16", value_parser = args::number, allow_negative_numbers = true)]
+    stripes: f64,
+    /// Which coordinate points upwards
+    #[arg(long, value_name = "AXIS", default_value = "z", value_parser = ["y", "z"])]
+    up: String,
+    /// Pixels of a picture's sides
+    #[arg(long, value_name = "PIXELS", default_value_t = 480, value_parser = args::count, allow_negative_numbers = true)]
+    size: usize,
+    #[command(flatten)]
+    surface: SurfaceArgs,
+    /// The file to write, which ends with .png
+    #[arg(short, long, value_name = "OUT.png")]
+    out: PathBuf,
+}
+
+#[derive(Clone, Debug)]
+struct Numbers(Vec<f64>);
+
+fn numbers(text: &str) -> Result<Numbers, String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse::<f64>()).collect();
+    match numbers {
+        Ok(numbers) if numbers.iter().all(|x| x.is_finite()) => Ok(Numbers(numbers)),
+        _ => Err("accepted are finite numbers with commas between them".to_owned()),
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ShowArg {
+    Shaded,
+    Wireframe,
+    Gauss,
+    Mean,
+    Highlight,
+    Reflection,
+    Isophotes,
+}
+
+impl Arguments {
+    fn settings(&self) -> Result<Settings, Error> {
+        let show = match self.show {
+            ShowArg::Shaded => Show::Shaded,
+            ShowArg::Wireframe => Show::Wireframe,
+            ShowArg::Gauss => Show::Gauss,
+            ShowArg::Mean => Show::Mean,
+            ShowArg::Highlight => Show::Highlight,
+            ShowArg::Reflection => Show::Reflection,
+            ShowArg::Isophotes => Show::Isophotes,
+        };
+        let view = match *self.view.0.as_slice() {
+            [azimuth, elevation] => [azimuth, elevation, 1.0],
+            [azimuth, elevation, zoom] if zoom > 0.0 => [azimuth, elevation, zoom],
+            _ => {
+                return Err(Error::usage(
+                    "a view of other numbers",
+                    "azimuth,elevation,zoom with a zoom above 0",
+                ));
+            }
+        };
+        let &[azimuth, elevation] = self.light.0.as_slice() else {
+            return Err(Error::usage("a light of other numbers", "azimuth,elevation"));
+        };
+        if !(self.stripes > 0.0 && self.stripes <= 1000.0) {
+            return Err(Error::range("stripes", self.stripes, "0 < stripes <= 1000"));
+        }
+        if !(32..=4096).contains(&self.size) {
+            return Err(Error::range("size", self.size, "32 to 4096"));
+        }
+        if self.out.extension().is_none_or(|extension| extension != "png") {
+            return Err(Error::usage("a picture is a PNG file", "-o FILE.png"));
+        }
+        Ok(Settings {
+            show,
+            view,
+            light: [azimuth, elevation],
+            stripes: self.stripes,
+            y_up: self.up == "y",
+            size: self.size,
+        })
+    }
+
+    pub fn run(self) -> Result<ExitCode, Error> {
+        let settings = self.settings()?;
+        let mesh = self.surface.mesh(&self.file)?;
+        let schemes = &self.schemes.0;
+        if schemes.len() > 8 {
+            return Err(Error::range("number of schemes", schemes.len(), "1 to 8"));
+        }
+        let rules: Vec<Rules> = schemes
+            .iter()
+            .map(|(_, scheme)| self.surface.rules(scheme, &mesh))
+            .collect::<Result<_, _>>()?;
+        let in_file = |error: eigenring_surface::Error| eigenring_atlas::Error::from(error).in_file(&self.file);
+        let page = self.surface.on_threads(|| -> Result<_, Error> {
+            let surfaces = schemes.iter().zip(&rules).map(|((name, _), rules)| {
+                let surface = Surface::new(&mesh, rules).map_err(in_file)?;
+                Ok((name.clone(), surface))
+            });
+            let surfaces: Vec<_> = surfaces.collect::<Result<_, Error>>()?;
+            Ok(render(&surfaces, &settings)?)
+        })??;
+        files::write(&self.out, &page.png()?)?;
+        files::emit(None, format!("wrote {}\n", self.out.display()).as_bytes())?;
+        Ok(ExitCode::SUCCESS)
+    }
+}
