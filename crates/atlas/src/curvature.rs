@@ -6,14 +6,14 @@
 
 use crate::error::Error;
 use crate::table::{Cell, Table};
-use eigenring_spline::quadrature::gauss_legendre;
+use eigenring_spline::quadrature::{Node, gauss_legendre};
 use eigenring_surface::limit::{Evaluator, Kind, Place, Sample, Surface, VertexFan};
 use rayon::prelude::*;
 
 /// Annuli around an irregular corner.
 const ANNULI: i32 = 40;
-/// Nodes in each direction on a piece of an annulus.
-const NODES: usize = 6;
+/// Nodes in each direction on a quarter, and on a piece of an annulus.
+const NODES: [usize; 2] = [12, 6];
 
 /// The least and the greatest of a quantity, with their places.
 #[derive(Clone, Copy, Debug)]
@@ -70,7 +70,7 @@ fn add(totals: &mut Totals, sample: &Sample, weight: f64) {
 }
 
 fn over_face(evaluator: &mut Evaluator<'_, '_>, face: u32, size: usize) -> Result<Totals, eigenring_surface::Error> {
-    let nodes = gauss_legendre(NODES);
+    let rules = NODES.map(gauss_legendre);
     let mut totals = Totals::default();
     for (sub, corner) in pieces(size) {
         let at = |s: f64, t: f64| Place {
@@ -81,23 +81,23 @@ fn over_face(evaluator: &mut Evaluator<'_, '_>, face: u32, size: usize) -> Resul
             t,
         };
         let centre = evaluator.at(at(0.0, 0.0))?;
-        let mut rectangle = |totals: &mut Totals, [s, t]: [f64; 2], [width, height]: [f64; 2]| {
-            for a in &nodes {
-                for b in &nodes {
-                    let sample = evaluator.at(at(s + width * a.at, t + height * b.at))?;
-                    add(totals, &sample, width * height * a.weight * b.weight);
+        let mut square = |totals: &mut Totals, nodes: &[Node], [s, t]: [f64; 2], width: f64| {
+            for a in nodes {
+                for b in nodes {
+                    let sample = evaluator.at(at(s + width * a.at, t + width * b.at))?;
+                    add(totals, &sample, width * width * a.weight * b.weight);
                 }
             }
             Ok::<(), eigenring_surface::Error>(())
         };
         if centre.kind == Kind::Regular {
-            rectangle(&mut totals, [0.0, 0.0], [0.5, 0.5])?;
+            square(&mut totals, &rules[0], [0.0, 0.0], 0.5)?;
             continue;
         }
         for level in 1..=ANNULI {
             let h = 0.5_f64.powi(level + 1);
             for corner in [[h, 0.0], [0.0, h], [h, h]] {
-                rectangle(&mut totals, corner, [h, h])?;
+                square(&mut totals, &rules[1], corner, h)?;
             }
         }
     }

@@ -36,7 +36,7 @@ pub struct Arguments {
     #[arg(long, value_name = "AZ,EL", default_value = "-25,25", value_parser = numbers, allow_hyphen_values = true)]
     light: Numbers,
     /// The number of stripes over the size of the surface
-    #[arg(long, value_name = "COUNT", default_value = "16", value_parser = args::number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "COUNT", default_value = "6", value_parser = args::number, allow_negative_numbers = true)]
     stripes: f64,
     /// Which coordinate points upwards
     #[arg(long, value_name = "AXIS", default_value = "z", value_parser = ["y", "z"])]

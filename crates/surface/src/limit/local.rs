@@ -98,14 +98,12 @@ impl Source<'_> {
             }
             found.push(spoke);
         }
+        // the way back ends at another sharp edge or at the boundary, before what was found forwards
         spoke = start;
         while !stops(spoke) {
             match self.topology.turned_back(spoke) {
-                Some(next) => spoke = next,
-                None => break,
-            }
-            if found.contains(&spoke) {
-                break;
+                Some(next) if next != start => spoke = next,
+                _ => break,
             }
             found.push(spoke);
         }
