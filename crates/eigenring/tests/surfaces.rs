@@ -33,8 +33,7 @@ fn a_mesh_is_made_described_refined_and_evaluated() {
     );
     for format in ["obj", "ply", "off", "vtk", "glb"] {
         let name = format!("fine.{format}");
-        let text = place.ok(&["subdivide", "cube.obj", "--scheme", "doo-sabin", "-o", &name]);
-        assert!(text.contains(&format!("wrote {name}")), "{text}");
+        place.ok(&["subdivide", "cube.obj", "--scheme", "doo-sabin", "-o", &name]);
     }
     assert_eq!(place.json("mesh fine.ply"), {
         let mut same = place.json("mesh fine.obj");

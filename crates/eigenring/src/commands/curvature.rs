@@ -1,9 +1,9 @@
 //! `eigenring curvature`: extremes, integrals and irregular centres of a surface.
 
 use super::subdivide::SurfaceArgs;
-use crate::args::{self, Output};
+use crate::args;
 use crate::error::Error;
-use crate::files;
+use crate::output::Output;
 use clap::Args;
 use eigenring_atlas::curvature::{Extremes, centre_table, curvatures};
 use eigenring_atlas::meshes::Fields;
@@ -62,6 +62,8 @@ impl Arguments {
     }
 
     pub fn run(self) -> Result<ExitCode, Error> {
+        self.surface.start()?;
+        let format = self.output.format()?;
         let radii = self.radii()?;
         if !(1..=1000).contains(&self.per_face) {
             return Err(Error::range("per-face", self.per_face, "1 to 1000"));
@@ -72,12 +74,9 @@ impl Arguments {
         let facts = Facts::of(&mesh, &topology);
         let smooth = facts.boundary_loops.is_empty() && facts.features.sharp_edges == 0;
         let in_file = |error: eigenring_surface::Error| eigenring_atlas::Error::from(error).in_file(&self.file);
-        let (found, table) = self.surface.on_threads(|| -> Result<_, Error> {
-            let surface = Surface::new(&mesh, &rules).map_err(in_file)?;
-            let found = curvatures(&surface, self.per_face, smooth.then_some(facts.euler))?;
-            let table = centre_table(&surface, &found, &radii)?;
-            Ok((found, table))
-        })??;
+        let surface = Surface::new(&mesh, &rules).map_err(in_file)?;
+        let found = curvatures(&surface, self.per_face, smooth.then_some(facts.euler))?;
+        let table = centre_table(&surface, &found, &radii)?;
         let totals = found.totals;
         let range = |extremes: &Extremes| {
             let end = |(value, place): (f64, eigenring_surface::Place)| json!({ "value": value, "face": place.face, "sub": place.sub, "s": place.s, "t": place.t });
@@ -92,7 +91,7 @@ impl Arguments {
             ("total_gauss", json!(totals.gauss)),
             ("two_pi_chi", json!(found.expected)),
         ]);
-        let text = match self.output.format() {
+        let text = match format {
             Format::Json => {
                 let mut object = fields.json();
                 object["centres"] = table.json();
@@ -101,7 +100,7 @@ impl Arguments {
             Format::Text => format!("{}\n{}", fields.text(), table.render(Format::Text)),
             format => table.render(format),
         };
-        files::emit(None, text.as_bytes())?;
+        self.output.emit(&text)?;
         Ok(ExitCode::SUCCESS)
     }
 }

@@ -1,10 +1,10 @@
 //! `eigenring limit`: exact points of a surface.
 
 use super::subdivide::SurfaceArgs;
-use crate::args::{self, Output};
+use crate::args;
 use crate::error::Error;
-use crate::files;
 use crate::memory;
+use crate::output::Output;
 use clap::{ArgGroup, Args};
 use eigenring_atlas::limits;
 use eigenring_atlas::schemes::SchemeName;
@@ -43,9 +43,6 @@ pub struct Arguments {
     derivatives: String,
     #[command(flatten)]
     surface: SurfaceArgs,
-    /// The file to write: .csv or .json
-    #[arg(short, long, value_name = "OUT")]
-    out: Option<PathBuf>,
     /// Run although the result may not fit into memory
     #[arg(long)]
     force: bool,
@@ -55,42 +52,35 @@ pub struct Arguments {
 
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
+        self.surface.start()?;
+        let format = self.output.format()?;
         let mesh = self.surface.mesh(&self.file)?;
         let rules = self.surface.rules(&self.scheme, &mesh)?;
         let in_file = |error: eigenring_surface::Error| eigenring_atlas::Error::from(error).in_file(&self.file);
-        let format = match self.out.as_deref().and_then(|path| path.extension()) {
-            None => self.output.format(),
-            Some(extension) if extension == "csv" => Format::Csv,
-            Some(extension) if extension == "json" => Format::Json,
-            Some(extension) => {
-                let given = format!("'.{}' is no format of tables", extension.to_string_lossy());
-                return Err(Error::usage(given, "-o FILE.csv or FILE.json"));
+        let surface = Surface::new(&mesh, &rules).map_err(in_file)?;
+        if self.vertices {
+            let fans = surface.vertices().map_err(in_file)?;
+            self.output
+                .emit(&limits::vertex_table(&surface, &fans).render(format))?;
+            return Ok(ExitCode::SUCCESS);
+        }
+        let places = match (&self.points, self.per_face) {
+            (Some(path), _) => limits::read_places(path)?,
+            (None, Some(n)) if n > 0 => {
+                let count = mesh.face_count() as f64 * (n * n) as f64;
+                // a place, its sample and its row as text
+                memory::check(count * 1500.0, self.force, &format!("{count} points"))?;
+                surface.grid(n)
             }
+            (None, n) => return Err(Error::range("per-face", n.unwrap_or(0), "1 and above")),
         };
-        let text = self.surface.on_threads(|| -> Result<String, Error> {
-            let surface = Surface::new(&mesh, &rules).map_err(in_file)?;
-            if self.vertices {
-                let fans = surface.vertices().map_err(in_file)?;
-                return Ok(limits::vertex_table(&surface, &fans).render(format));
-            }
-            let places = match (&self.points, self.per_face) {
-                (Some(path), _) => limits::read_places(path)?,
-                (None, Some(n)) if n > 0 => {
-                    let count = mesh.face_count() as f64 * (n * n) as f64;
-                    // a place, its sample and its row as text
-                    memory::check(count * 1000.0, self.force, &format!("{count} points"))?;
-                    surface.grid(n)
-                }
-                (None, n) => return Err(Error::range("per-face", n.unwrap_or(0), "1 and above")),
-            };
-            let samples = limits::samples(&surface, &places)?;
-            let derivatives = self.derivatives.parse().unwrap_or(0);
-            Ok(match format {
-                Format::Csv => limits::point_csv(&places, &samples, derivatives),
-                format => limits::point_table(&places, &samples, derivatives).render(format),
-            })
-        })??;
-        files::emit(self.out.as_deref(), text.as_bytes())?;
+        let samples = limits::samples(&surface, &places)?;
+        let derivatives = self.derivatives.parse().unwrap_or(0);
+        let text = match format {
+            Format::Csv => limits::point_csv(&places, &samples, derivatives),
+            format => limits::point_table(&places, &samples, derivatives).render(format),
+        };
+        self.output.emit(&text)?;
         Ok(ExitCode::SUCCESS)
     }
 }

@@ -1,8 +1,8 @@
 //! `eigenring mesh`: what a mesh file holds, and two repairs.
 
-use crate::args::Output;
 use crate::error::Error;
 use crate::files;
+use crate::output::FormatOption;
 use crate::progress::note;
 use clap::Args;
 use eigenring_atlas::meshes;
@@ -32,7 +32,7 @@ pub struct Arguments {
     #[arg(short, long, value_name = "OUT")]
     out: Option<PathBuf>,
     #[command(flatten)]
-    output: Output,
+    output: FormatOption,
 }
 
 impl Arguments {
@@ -60,7 +60,7 @@ impl Arguments {
             let format = meshes::written_format(path)?;
             let mut bytes = Vec::new();
             eigenring_surface::io::write(&file.mesh, &mut bytes, format)?;
-            files::write(path, &bytes)?;
+            files::save(path, &bytes)?;
         }
         files::emit(None, printed.as_bytes())?;
         match file.surface() {

@@ -117,6 +117,7 @@ impl Arguments {
     }
 
     pub fn run(self) -> Result<ExitCode, Error> {
+        self.surface.start()?;
         let settings = self.settings()?;
         let mesh = self.surface.mesh(&self.file)?;
         let schemes = &self.schemes.0;
@@ -128,16 +129,13 @@ impl Arguments {
             .map(|(_, scheme)| self.surface.rules(scheme, &mesh))
             .collect::<Result<_, _>>()?;
         let in_file = |error: eigenring_surface::Error| eigenring_atlas::Error::from(error).in_file(&self.file);
-        let page = self.surface.on_threads(|| -> Result<_, Error> {
-            let surfaces = schemes.iter().zip(&rules).map(|((name, _), rules)| {
-                let surface = Surface::new(&mesh, rules).map_err(in_file)?;
-                Ok((name.clone(), surface))
-            });
-            let surfaces: Vec<_> = surfaces.collect::<Result<_, Error>>()?;
-            Ok(render(&surfaces, &settings)?)
-        })??;
-        files::write(&self.out, &page.png()?)?;
-        files::emit(None, format!("wrote {}\n", self.out.display()).as_bytes())?;
+        let surfaces = schemes.iter().zip(&rules).map(|((name, _), rules)| {
+            let surface = Surface::new(&mesh, rules).map_err(in_file)?;
+            Ok((name.clone(), surface))
+        });
+        let surfaces: Vec<_> = surfaces.collect::<Result<_, Error>>()?;
+        let page = render(&surfaces, &settings)?;
+        files::save(&self.out, &page.png()?)?;
         Ok(ExitCode::SUCCESS)
     }
 }

@@ -1,10 +1,12 @@
 //! `eigenring subdivide`: a mesh refined by a scheme.
 
-use crate::args::{self, Output};
+use crate::args;
 use crate::error::Error;
 use crate::files;
 use crate::memory;
+use crate::output::FormatOption;
 use crate::progress::note;
+use crate::threads::Threads;
 use clap::{Args, ValueEnum};
 use eigenring_atlas::meshes::{self, Pool};
 use eigenring_atlas::schemes::SchemeName;
@@ -40,7 +42,7 @@ pub struct Arguments {
     #[arg(long)]
     force: bool,
     #[command(flatten)]
-    output: Output,
+    output: FormatOption,
 }
 
 /// How a control mesh is read: options of all commands about surfaces.
@@ -56,9 +58,8 @@ pub struct SurfaceArgs {
     /// A CSV file of vertices and their lambda, for the lambda-scheme
     #[arg(long, value_name = "CSV")]
     lambda_map: Option<PathBuf>,
-    /// Threads; by default one for each core
-    #[arg(long, value_name = "T", value_parser = args::count, allow_negative_numbers = true)]
-    threads: Option<usize>,
+    #[command(flatten)]
+    threads: Threads,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -102,22 +103,15 @@ impl SurfaceArgs {
         Ok(meshes::rules(scheme, mesh, &lambdas, &args::tuner())?)
     }
 
-    /// Runs work on the threads that were asked for.
-    pub fn on_threads<T: Send>(&self, work: impl FnOnce() -> T + Send) -> Result<T, Error> {
-        let Some(threads) = self.threads else {
-            return Ok(work());
-        };
-        if !(1..=1024).contains(&threads) {
-            return Err(Error::range("threads", threads, "1 to 1024"));
-        }
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        let pool = pool.map_err(|error| Error::usage(error.to_string(), "fewer threads"))?;
-        Ok(pool.install(work))
+    /// Starts the threads that were asked for.
+    pub fn start(&self) -> Result<(), Error> {
+        self.threads.start()
     }
 }
 
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
+        self.surface.start()?;
         let format = self.out.as_deref().map(meshes::written_format).transpose()?;
         let output = self.output.format();
         if matches!(output, Format::Csv | Format::Latex) {
@@ -135,9 +129,8 @@ impl Arguments {
         let text = if format.is_some() { 1.5 } else { 0.0 };
         let bytes = (30.0 * points + 20.0 * faces) * (1.0 + text);
         memory::check(bytes, self.force, &format!("{} levels", self.levels))?;
-        let refined = self
-            .surface
-            .on_threads(|| refiner.refined(&mesh, self.levels))?
+        let refined = refiner
+            .refined(&mesh, self.levels)
             .map_err(|error| eigenring_atlas::Error::from(error).in_file(&self.file))?;
         if let (Some(path), Some(format)) = (&self.out, format) {
             let mut bytes = Vec::new();
