@@ -126,12 +126,12 @@ impl Arguments {
         }
         let rules: Vec<Rules> = schemes
             .iter()
-            .map(|(_, scheme)| self.surface.rules(scheme, &mesh))
+            .map(|scheme| self.surface.rules(scheme, &mesh))
             .collect::<Result<_, _>>()?;
         let in_file = |error: eigenring_surface::Error| eigenring_atlas::Error::from(error).in_file(&self.file);
-        let surfaces = schemes.iter().zip(&rules).map(|((name, _), rules)| {
+        let surfaces = schemes.iter().zip(&rules).map(|(name, rules)| {
             let surface = Surface::new(&mesh, rules).map_err(in_file)?;
-            Ok((name.clone(), surface))
+            Ok((name.to_string(), surface))
         });
         let surfaces: Vec<_> = surfaces.collect::<Result<_, Error>>()?;
         let page = render(&surfaces, &settings)?;

@@ -32,18 +32,13 @@ pub(crate) fn jet(control: &[[f64; 3]; 16], s: f64, t: f64) -> Jet3 {
         let mut sums = [[0.0; 3]; 3];
         for (point, i) in row.iter().zip(0..) {
             for (sum, weights) in sums.iter_mut().zip(&in_s) {
-                for k in 0..3 {
-                    sum[k] += weights[i] * point[k];
-                }
+                sum.iter_mut().zip(point).for_each(|(sum, x)| *sum += weights[i] * x);
             }
         }
-        for k in 0..3 {
-            jet[0][k] += in_t[0][j] * sums[0][k];
-            jet[1][k] += in_t[0][j] * sums[1][k];
-            jet[2][k] += in_t[1][j] * sums[0][k];
-            jet[3][k] += in_t[0][j] * sums[2][k];
-            jet[4][k] += in_t[1][j] * sums[1][k];
-            jet[5][k] += in_t[2][j] * sums[0][k];
+        let parts = [(0, 0), (0, 1), (1, 0), (0, 2), (1, 1), (2, 0)];
+        for (jet, (by_t, by_s)) in jet.iter_mut().zip(parts) {
+            let weight = in_t[by_t][j];
+            jet.iter_mut().zip(&sums[by_s]).for_each(|(jet, x)| *jet += weight * x);
         }
     }
     jet
