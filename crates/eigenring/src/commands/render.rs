@@ -129,9 +129,9 @@ impl Arguments {
             .map(|scheme| self.surface.rules(scheme, &mesh))
             .collect::<Result<_, _>>()?;
         let in_file = |error: eigenring_surface::Error| eigenring_atlas::Error::from(error).in_file(&self.file);
-        let surfaces = schemes.iter().zip(&rules).map(|(name, rules)| {
+        let surfaces = rules.iter().map(|rules| {
             let surface = Surface::new(&mesh, rules).map_err(in_file)?;
-            Ok((name.to_string(), surface))
+            Ok((rules.definition().name(), surface))
         });
         let surfaces: Vec<_> = surfaces.collect::<Result<_, Error>>()?;
         let page = render(&surfaces, &settings)?;
