@@ -186,9 +186,9 @@ impl Mesh {
         }
         let mut renumbered = vec![u32::MAX; self.points.len()];
         let mut kept = Vec::new();
-        for index in 0..self.points.len() {
+        for (index, number) in renumbered.iter_mut().enumerate() {
             if unused.binary_search(&(index as u32)).is_err() {
-                renumbered[index] = kept.len() as u32;
+                *number = kept.len() as u32;
                 kept.push(index);
             }
         }

@@ -15,8 +15,11 @@ pub struct Rules {
     by_valence: BTreeMap<usize, usize>,
     /// In how many smoothing steps creases act that do not say so themselves.
     pub steps: Option<usize>,
-    inner: Mutex<HashMap<(usize, usize), Arc<Scheme<f64>>>>,
+    inner: Mutex<Known>,
 }
+
+/// Schemes by definition and valence.
+type Known = HashMap<(usize, usize), Arc<Scheme<f64>>>;
 
 /// How a scheme refines meshes.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -432,9 +432,7 @@ impl Ladder {
             *t = [t[0] / shrunk, t[1] / shrunk, t[2] / shrunk / shrunk];
             if let (Ok(_), Ok(pair)) = (&self.tangents, &centre.pair) {
                 let r = [pair.right[index][0], pair.right[index][1] * slower];
-                for k in 0..2 {
-                    t[k] += r[0] * self.plane[0][k] + r[1] * self.plane[1][k];
-                }
+                (0..2).for_each(|k| t[k] += r[0] * self.plane[0][k] + r[1] * self.plane[1][k]);
             }
         }
         rest

@@ -309,7 +309,7 @@ impl Local {
     }
 
     fn is_special(&self, rules: &Rules, vertex: u32, valence: usize) -> bool {
-        self.named.contains_key(&vertex) || (valence == 4 && rules.lists_four()) || valence != 4
+        valence != 4 || self.named.contains_key(&vertex) || rules.lists_four()
     }
 
     /// Whether a vertex with rules that reach farther than itself is among the control points of the face.
