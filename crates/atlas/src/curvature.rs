@@ -1,8 +1,8 @@
 //! Curvature of whole surfaces: extremes, integrals, and what happens at irregular centres.
 //!
-//! Integrals are by Gauss-Legendre rules on the quarters of all faces. A quarter at an irregular corner is cut
-//! into annuli, each half as wide as the one before, down to 2^-40: beside a centre of unbounded curvature the
-//! integrand grows, and the annuli shrink faster.
+//! Integrals are by Gauss-Legendre rules on the quarters of all faces. A quarter at an irregular corner is
+//! cut into annuli, each half as wide as the one before, down to 2^-40: beside a centre of unbounded
+//! curvature the integrand grows, and the annuli shrink faster.
 
 use crate::error::Error;
 use crate::table::{Cell, Table};

@@ -353,7 +353,8 @@ impl Kernel {
         }
     }
 
-    /// The inner points of a block of `2n x 2n` out of the `(n+1) x (n+1)` points of a block, both row by row.
+    /// The inner points of a block of `2n x 2n` out of the `(n+1) x (n+1)` points of a block, both row by
+    /// row.
     pub fn run(&self, block: &[Point3<f64>], n: usize, inner: &mut [Point3<f64>]) {
         let stride = n + 1;
         // offsets from the point before half the place, in both directions

@@ -5,8 +5,8 @@
 //! edges) cells along them are *half cells*, with the points `b` of the rim on them:
 //!
 //! * the first level, on the control mesh: each rim edge `vw` gives the curve's two points
-//!   `((1+2u) v + w) / (2(1+u))`, each side of it a half cell `b_w, q_w, q_v, b_v`; each vertex a cell in each
-//!   fan between rim edges, with the corner in front if the vertex stays;
+//!   `((1+2u) v + w) / (2(1+u))`, each side of it a half cell `b_w, q_w, q_v, b_v`; each vertex a cell in
+//!   each fan between rim edges, with the corner in front if the vertex stays;
 //! * later ones: `b' = (u b + c)/(1+u)` for both rim edges of a rim point, `c` the edge's middle, or the
 //!   corner in which it ends; half cells by [`half_cell`]. A cell becomes a cell, an edge between two corners
 //!   of cells a quad, an edge that ends on the rim a half cell, a corner of four cells a quad.

@@ -1,8 +1,8 @@
 //! Polygon meshes and the subdivision surfaces that they control.
 //!
-//! A [`Mesh`] is read from a file ([`io`]) or one of the [`shapes`]; its [`Topology`] exists if it is an oriented
-//! manifold with boundary, else [`Mesh::defects`] say what is wrong. A [`Refiner`] runs the passes of any
-//! scheme on it, and a [`Surface`] has its exact limit points, derivatives and curvature.
+//! A [`Mesh`] is read from a file ([`io`]) or one of the [`shapes`]; its [`Topology`] exists if it is an
+//! oriented manifold with boundary, else [`Mesh::defects`] say what is wrong. A [`Refiner`] runs the passes
+//! of any scheme on it, and a [`Surface`] has its exact limit points, derivatives and curvature.
 //!
 //! ```
 //! use eigenring_scheme::{Definition, Spec};

@@ -3,8 +3,8 @@
 //! A level of a primal scheme splits every n-gon into n quads (corner, edge, middle, edge) and gives each
 //! point of the split mesh a row over the points before. Rows near a vertex are those of the scheme's own
 //! level around it ([`Rules`]); rows of a regular edge or face are the tensor product of the pass's
-//! [`Line`]; rows on creases are those of the open fan. Vertices keep their numbers; edges follow in the order
-//! of their first half-edge, then faces.
+//! [`Line`]; rows on creases are those of the open fan. Vertices keep their numbers; edges follow in the
+//! order of their first half-edge, then faces.
 //!
 //! **Faces that are no quads** have a rule of their own in the first level: the middle becomes the centroid.
 //! Catmull-Clark then takes `(v + w + F + F')/4` for edges and `(1-2/n) V + 1/n^2 sum E + 1/n^2 sum F` for

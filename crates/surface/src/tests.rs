@@ -166,7 +166,8 @@ fn open_fans_and_creases() {
 #[test]
 fn scheme_files_with_rules_of_their_own() {
     let one_ring = "kind = \"one-ring\"\nname = \"mine\"\n[[valence]]\nn = 5\nf1 = \"1/4\"\nf2 = 0.25\nf3 = 0.25\nd1 = 0.4\nd2 = 0.375\ne1 = 0.05\ne2 = 0.0625\nalpha = 0.3\nbeta = 0.05\n";
-    // linear refinement, then twice the mean of faces and vertices: of other valences than 4 by its own centre
+    // linear refinement, then twice the mean of faces and vertices: of other valences than 4 by its own
+    // centre
     let passes = "kind = \"stencils\"\nname = \"means\"\n[[valence]]\nn = 5\n[[valence.pass]]\nfrom = \"vertex\"\nto = \"vertex\"\nline = [[[0, 1]], [[-2, 0.5], [2, 0.5]]]\n[[valence.pass]]\nfrom = \"vertex\"\nto = \"face\"\nline = [[[-1, 0.5], [1, 0.5]]]\n[[valence.pass]]\nfrom = \"face\"\nto = \"vertex\"\nline = [[[-1, 0.5], [1, 0.5]]]\n[[valence.pass.special]]\nat = [0, 0]\nstencil = [{ at = [1, 1], sector = \"all\", weight = 0.2 }]\n";
     for text in [one_ring, passes] {
         let file = UserScheme::parse(text, "x", Reading::Balanced).unwrap();

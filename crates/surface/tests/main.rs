@@ -1,5 +1,5 @@
-//! Meshes and surfaces against other programs and independent evaluations, and files of all kinds. One binary,
-//! since linking takes longer than running.
+//! Meshes and surfaces against other programs and independent evaluations, and files of all kinds. One
+//! binary, since linking takes longer than running.
 
 mod common;
 mod files;

@@ -16,8 +16,8 @@ pub enum Kind {
     Regular,
     /// At an irregular centre with curvature zero.
     Flat,
-    /// At an irregular centre with bounded curvature that depends on the direction: the range of the Gauss and
-    /// the mean curvature.
+    /// At an irregular centre with bounded curvature that depends on the direction: the range of the Gauss
+    /// and the mean curvature.
     Bounded {
         /// Least and largest Gauss curvature.
         gauss: [f64; 2],

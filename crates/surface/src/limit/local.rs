@@ -84,7 +84,8 @@ impl Source<'_> {
             .min(INFINITE)
     }
 
-    /// The corners of faces around the origin of a half-edge, itself first, then counter-clockwise, then back.
+    /// The corners of faces around the origin of a half-edge, itself first, then counter-clockwise, then
+    /// back.
     fn around(&self, start: u32, cut: bool) -> Vec<u32> {
         let vertex = self.topology.origin(start);
         let stops = |half: u32| cut && self.sharpness(half) >= INFINITE && self.sharp_spokes(vertex) != 1;

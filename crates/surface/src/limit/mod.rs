@@ -4,8 +4,8 @@
 //! has one irregular centre at a corner of the face and refinement reproduces it ([`local`]). **Regular**
 //! patches are bicubic B-splines, continued by reflection at boundaries and creases ([`patch`]). **Beside a
 //! centre** at depth m the control points are never multiplied out and differenced: they are kept as
-//! `1 p + lambda^m R a + T`, p the limit of the centre, a its tangents, T the rest, which is projected free of
-//! both at every level ([`centre`]). In the frame of the tangent plane, with x and y divided by `lambda^m`
+//! `1 p + lambda^m R a + T`, p the limit of the centre, a its tangents, T the rest, which is projected free
+//! of both at every level ([`centre`]). In the frame of the tangent plane, with x and y divided by `lambda^m`
 //! and z by `lambda^2m`, nothing cancels and nothing underflows down to parameters of 1e-18 and below.
 
 mod centre;
@@ -162,8 +162,8 @@ impl<'a> Surface<'a> {
         Ok(Evaluator::new(self, face))
     }
 
-    /// The weights of the control points in the point at a place, by their numbers; they add up to 1. Found by
-    /// evaluating the place for unit control points, three at a time: for tables that are used often.
+    /// The weights of the control points in the point at a place, by their numbers; they add up to 1. Found
+    /// by evaluating the place for unit control points, three at a time: for tables that are used often.
     ///
     /// # Errors
     /// As [`Surface::at`].
