@@ -3,6 +3,10 @@
 //! Two numbers agree if `|a - b| <= atol + rtol |a|`; words must be equal. What a computation cost
 //! (evaluations) and what is rounding by nature (residuals of optimality conditions, slacks of active bounds)
 //! may differ between platforms and is not compared.
+//!
+//! On one platform the same program gives the same bytes, so that files which agree to the tolerances but not
+//! to the byte are stale, or from elsewhere. That is no failure; the report has a line that says how many
+//! entries differ and by how much at most.
 
 use crate::error::Error;
 use crate::files;
@@ -32,6 +36,10 @@ pub struct Comparison {
     pub compared: usize,
     /// Those that differ.
     pub differences: Vec<Difference>,
+    /// How many others are not the same to the last digit, entries that are not compared among them.
+    pub drifted: usize,
+    /// The one of these that differs most, with its distance; those that are compared come first.
+    pub farthest: Option<(f64, Difference)>,
 }
 
 /// An entry that differs.
@@ -62,6 +70,38 @@ impl Comparer {
         // a NaN agrees with nothing; with zero tolerances equal numbers give 0/0
         if !(excess <= 1.0) && expected != found {
             self.differ(place(), expected_text.to_owned(), found_text.to_owned(), excess);
+        } else if expected_text != found_text {
+            // equal doubles in other digits give 0/0 with zero tolerances
+            let excess = if expected == found { 0.0 } else { excess };
+            self.drift(place, (expected, expected_text), (found, found_text), excess);
+        }
+    }
+
+    /// Notes an entry that is as good as the same. The farthest one is that of the largest distance in units
+    /// of the tolerance.
+    fn drift(&mut self, place: impl FnOnce() -> String, expected: (f64, &str), found: (f64, &str), excess: f64) {
+        self.result.drifted += 1;
+        let farthest = self
+            .result
+            .farthest
+            .as_ref()
+            .map_or(f64::NEG_INFINITY, |(_, other)| other.excess);
+        if excess > farthest {
+            let difference = Difference {
+                place: place(),
+                expected: expected.1.to_owned(),
+                found: found.1.to_owned(),
+                excess,
+            };
+            self.result.farthest = Some(((expected.0 - found.0).abs(), difference));
+        }
+    }
+
+    /// Notes an entry that is not compared, if it differs: below all that are.
+    fn uncompared(&mut self, place: impl FnOnce() -> String, expected: &str, found: &str) {
+        if expected != found {
+            let number = |text: &str| text.parse().unwrap_or(f64::NAN);
+            self.drift(place, (number(expected), expected), (number(found), found), -1.0);
         }
     }
 
@@ -97,10 +137,12 @@ impl Comparer {
                 }
             }
             (Value::Object(a), Value::Object(b)) if a.len() == b.len() && a.keys().all(|key| b.contains_key(key)) => {
-                for (key, a) in a.iter().filter(|(key, _)| !NOT_COMPARED.contains(&key.as_str())) {
+                for (key, a) in a {
+                    let place = format!("{place}.{key}");
                     // the digest follows from the numbers and from each bit of them
-                    if key != "digest" {
-                        self.value(&format!("{place}.{key}"), a, &b[key]);
+                    match key == "digest" || NOT_COMPARED.contains(&key.as_str()) {
+                        true => self.uncompared(|| place, &a.to_string(), &b[key].to_string()),
+                        false => self.value(&place, a, &b[key]),
                     }
                 }
             }
@@ -140,10 +182,11 @@ pub fn compare_csv(expected: &str, found: &str, atol: f64, rtol: f64) -> Compari
         );
         for (column, (a, b)) in a.iter().zip(b).enumerate() {
             let name = header.get(column).map_or("", String::as_str);
+            let place = || format!("row {}, {name}", index + 1);
             if NOT_COMPARED.contains(&name) {
+                comparer.uncompared(place, a, b);
                 continue;
             }
-            let place = || format!("row {}, {name}", index + 1);
             match (a.parse::<f64>(), b.parse::<f64>()) {
                 (Ok(x), Ok(y)) => comparer.number(place, (x, a.as_str()), (y, b.as_str())),
                 _ => comparer.word(place, a, b),
@@ -178,7 +221,8 @@ pub struct Report {
 const SHOWN: usize = 10;
 
 /// Compares one file that was made anew with the one that is stored: CSV and JSON number by number. Of other
-/// files there must be one in both folders, and not an empty one.
+/// files there must be one in both folders, and not an empty one. Whatever else differs, to the byte, is told
+/// in a line of its own and does not count.
 ///
 /// # Errors
 /// [`Error::Read`] and [`Error::InFile`] for files that are missing or empty.
@@ -189,18 +233,24 @@ pub fn compare_files(anew: &Path, stored: &Path, path: &Path, (atol, rtol): (f64
         Some("json") => compare_json,
         // a picture or a page: there must be one
         _ => {
-            files::size(&anew.join(path))?;
-            files::size(&stored.join(path))?;
-            return Ok(Report {
-                same: true,
-                text: format!("present    {name}\n"),
-            });
+            let read = |folder: &Path| {
+                let path = folder.join(path);
+                files::size(&path)?;
+                std::fs::read(&path).map_err(|source| Error::Read { path, source })
+            };
+            let mut text = format!("present    {name}\n");
+            if read(anew)? != read(stored)? {
+                text.push_str(&notice("the bytes differ"));
+            }
+            return Ok(Report { same: true, text });
         }
     };
     let (expected, found) = (files::read(&anew.join(path))?, files::read(&stored.join(path))?);
     let Comparison {
         compared,
         mut differences,
+        drifted,
+        farthest,
     } = numbers(&expected, &found, atol, rtol);
     let verdict = if differences.is_empty() { "same" } else { "DIFFERENT" };
     let mut text = format!(
@@ -214,10 +264,35 @@ pub fn compare_files(anew: &Path, stored: &Path, path: &Path, (atol, rtol): (f64
             difference.place, difference.found, difference.expected
         ));
     }
+    match farthest {
+        Some((
+            distance,
+            Difference {
+                place, expected, found, ..
+            },
+        )) => {
+            let by = if distance.is_finite() {
+                format!(", by {distance:e}")
+            } else {
+                String::new()
+            };
+            let most = format!("most {place}: stored {found}, now {expected}{by}");
+            text.push_str(&notice(&format!("differing within the tolerances: {drifted}, {most}")));
+        }
+        None if differences.is_empty() && expected != found => {
+            text.push_str(&notice("the bytes differ, and no entry does"));
+        }
+        None => {}
+    }
     Ok(Report {
         same: differences.is_empty(),
         text,
     })
+}
+
+/// A line below that of a file, about what does not count.
+fn notice(text: &str) -> String {
+    format!("notice     {text}\n")
 }
 
 #[cfg(test)]
@@ -235,6 +310,63 @@ mod tests {
         assert_eq!(differences.len(), 2);
         assert_eq!(differences[1].place, "row 3, x");
         assert_eq!(compare_csv(expected, "name,x,kkt\n", 1.0, 0.0).differences.len(), 1);
+    }
+
+    #[test]
+    fn stale_numbers_within_the_tolerances_are_told() {
+        let (anew, stored) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        let report = |file: &str, now: &str, before: &str| {
+            files::write(&anew.path().join(file), now.as_bytes()).unwrap();
+            files::write(&stored.path().join(file), before.as_bytes()).unwrap();
+            compare_files(anew.path(), stored.path(), file.as_ref(), (1e-9, 1e-6)).unwrap()
+        };
+        let now = "name,f3,kkt\na,0,1e-12\nb,2.0,1e-12\n";
+        assert_eq!(report("x.csv", now, now).text.lines().count(), 1);
+        for (before, expected) in [
+            // a rounding error where the code gives zero, and less than the next line's
+            (
+                "name,f3,kkt\na,-1e-22,1e-12\nb,2.0,1e-12\n",
+                "notice     differing within the tolerances: 1, most row 2, f3: stored -1e-22, now 0, by 1e-22",
+            ),
+            (
+                "name,f3,kkt\na,-1e-22,3e-9\nb,2.0000001,1e-12\n",
+                "notice     differing within the tolerances: 3, most row 3, f3: stored 2.0000001, now 2.0, by 9.99",
+            ),
+            (
+                "name,f3,kkt\na,0,1e-11\nb,2.0,1e-12\n",
+                "notice     differing within the tolerances: 1, most row 2, kkt: stored 1e-11, now 1e-12, by 9",
+            ),
+            (
+                "name,f3,kkt\na,-0,1e-12\nb,2.0,1e-12\n",
+                "most row 2, f3: stored -0, now 0, by 0e0",
+            ),
+            (
+                "name,f3,kkt\r\na,0,1e-12\r\nb,2.0,1e-12\r\n",
+                "notice     the bytes differ, and no entry does",
+            ),
+        ] {
+            let Report { same, text } = report("x.csv", now, before);
+            assert!(same && text.lines().count() == 2 && text.contains(expected), "{text}");
+        }
+        let json = |f3: &str| format!(r#"{{"f3":[{f3}],"digest":"{f3}"}}"#);
+        let Report { same, text } = report("x.json", &json("0.0"), &json("-1e-22"));
+        assert!(
+            same && text.contains("tolerances: 2, ") && text.contains(".f3[0]: stored -1e-22, now 0.0"),
+            "{text}"
+        );
+        // what differs by more is told as before, and the rest beside it
+        let Report { same, text } = report("x.csv", now, "name,f3,kkt\na,-1e-22,1e-12\nb,2.1,1e-12\n");
+        assert!(
+            !same && text.contains("row 3, f3: stored 2.1") && text.contains("tolerances: 1, "),
+            "{text}"
+        );
+        let pictures = report("x.png", "abc", "abd");
+        assert!(
+            pictures.same && pictures.text.contains("the bytes differ"),
+            "{}",
+            pictures.text
+        );
+        assert_eq!(report("x.png", "abc", "abc").text.lines().count(), 1);
     }
 
     #[test]

@@ -256,7 +256,7 @@ fn featured(studies: &[Study]) -> Table {
 }
 
 /// The featured lambdas that are the same for all valences or have a column of their own.
-const COLUMNS: [&str; 7] = [
+pub const FEATURED: [&str; 7] = [
     "lambda_r1",
     "lambda_A",
     "lambda_l",
@@ -267,9 +267,9 @@ const COLUMNS: [&str; 7] = [
 ];
 
 fn at_featured(studies: &[Study], value: impl Fn(&eigenring_tune::study::Featured) -> f64) -> Table {
-    let mut table = Table::new(std::iter::once("valence").chain(COLUMNS));
+    let mut table = Table::new(std::iter::once("valence").chain(FEATURED));
     for study in studies {
-        let values = COLUMNS.map(|name| study.featured(name).map(&value).into());
+        let values = FEATURED.map(|name| study.featured(name).map(&value).into());
         table.push(std::iter::once(study.valence.into()).chain(values).collect());
     }
     table

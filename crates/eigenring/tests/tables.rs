@@ -131,6 +131,15 @@ fn a_check_finds_a_changed_digit() {
         "{place_line}"
     );
     assert_eq!(run.stdout.matches("DIFFERENT").count(), 1);
+    // a digit beyond the tolerances' reach is no difference, but told
+    place.write(
+        "out/lambda/samples.csv",
+        csv.replace(line, &line.replace(&f2, &format!("{f2}1"))),
+    );
+    let report = place.ok(&check);
+    let notices: Vec<&str> = report.lines().filter(|line| line.starts_with("notice")).collect();
+    let expected = format!("differing within the tolerances: 1, most row 41, f2: stored {f2}1, now {f2}, by ");
+    assert!(notices.len() == 1 && notices[0].contains(&expected), "{report}");
     // a missing row
     let shorter: Vec<&str> = csv.lines().take(100).collect();
     place.write("out/lambda/samples.csv", shorter.join("\n") + "\n");

@@ -1,8 +1,8 @@
 //! Draws one figure of each kind into the folder given, `gallery-*.svg` and `.png`.
 
 use eigenring_figure::{
-    Anchor, Axis, Chart, Colour, ColourMap, ColourScale, Dash, Figure, Marker, Panel, Side, Stroke, Style, Surface,
-    View, Width,
+    Anchor, Axis, Chart, Colour, ColourMap, ColourScale, Dash, Figure, Fill, Marker, Panel, Side, Stroke, Style,
+    Surface, View, Width,
 };
 
 fn charts() -> Figure {
@@ -17,7 +17,7 @@ fn charts() -> Figure {
     )
     .span(0.2, 0.86, Colour::SHADE)
     .label("recommended")
-    .band(x().map(|x| [x, 0.2 * x, 0.5 * x + 0.1]), Colour::line(0), 0.15)
+    .band(x().map(|x| [x, 0.2 * x, 0.5 * x + 0.1]), Fill::Hatched(Colour::line(0)))
     .label("feasible $f_2$")
     .vertical(0.5, "$λ_M^*$", rule)
     .vertical(0.55, "$λ_{CC}$", rule)

@@ -93,11 +93,11 @@ impl Axis {
         })
     }
 
-    fn ticks(&self, length: f64, per_tick: f64) -> Vec<Tick> {
-        let most = ((length / per_tick) as usize).clamp(3, 12);
+    /// At most about so many ticks, whose texts count from `base`.
+    fn ticks(&self, most: usize, base: f64) -> Vec<Tick> {
         let (low, high) = self.range;
-        match (&self.ticks, self.scale) {
-            (Some(ticks), _) => {
+        match (&self.ticks, self.scale, self.joint) {
+            (Some(ticks), ..) => {
                 let inside = ticks.iter().filter(|tick| (low..=high).contains(&tick.0));
                 let tick = |(value, text): &(f64, String)| Tick {
                     value: *value,
@@ -105,15 +105,64 @@ impl Axis {
                 };
                 inside.map(tick).collect()
             }
-            (None, Scale::Linear) => ticks::linear(low, high, most),
-            (None, Scale::Log) => ticks::logarithmic(low, high, most),
+            (None, Scale::Linear, None) => {
+                let mut ticks = ticks::linear(low - base, high - base, most);
+                ticks.iter_mut().for_each(|tick| tick.value += base);
+                ticks
+            }
+            (None, Scale::Linear, Some((joint, at))) => {
+                let part = |share: f64| ((most as f64 * share).round() as usize).max(2);
+                let mut ticks = ticks::linear(low, joint, part(at));
+                let last = ticks.last().map_or(low, |tick| tick.value);
+                let above = ticks::linear(joint, high, part(1.0 - at)).into_iter();
+                ticks.extend(above.filter(|tick| tick.value > last));
+                ticks
+            }
+            (None, Scale::Log, _) => ticks::logarithmic(low, high, most),
         }
     }
+
+    /// The ticks of a horizontal axis of about this length whose texts stand side by side: as many as fit. If
+    /// not even two do, since they have too many digits, they count from a base, which the label tells.
+    fn fitting(&self, length: f64, font: &Font) -> Result<(Vec<Tick>, Option<String>), Error> {
+        let most = most_ticks(length, PER_X_TICK);
+        let usual = self.ticks(most, 0.0);
+        if self.ticks.is_some() || self.scale == Scale::Log || self.joint.is_some() {
+            return Ok((usual, None));
+        }
+        let (base, text) = ticks::base(self.range.0, self.range.1);
+        for (base, text) in [(0.0, None), (base, Some(text))] {
+            for most in (2..=most).rev() {
+                let ticks = self.ticks(most, base);
+                let mut free = f64::NEG_INFINITY;
+                let mut fits = ticks.len() >= 2;
+                for tick in &ticks {
+                    let (at, half) = (
+                        length * self.position(tick.value),
+                        font.line(&tick.text, SMALL)?.width / 2.0,
+                    );
+                    fits &= at - half >= free;
+                    free = at + half + APART;
+                }
+                if fits {
+                    return Ok((ticks, text));
+                }
+            }
+        }
+        Ok((usual, None))
+    }
+}
+
+/// The most ticks on an axis of this length.
+fn most_ticks(length: f64, per_tick: f64) -> usize {
+    ((length / per_tick) as usize).clamp(3, 12)
 }
 
 /// Both axes of a chart with their ticks, horizontal first.
 pub(crate) struct Axes<'a> {
     pub chart: &'a Chart,
+    /// The label below the horizontal axis.
+    label: String,
     /// Those with texts.
     major: [Vec<Tick>; 2],
     /// Those without.
@@ -124,12 +173,11 @@ pub(crate) struct Axes<'a> {
 impl<'a> Axes<'a> {
     /// The axes of a chart whose frame has about the given size.
     pub fn new(chart: &'a Chart, about: [f64; 2], font: &Font) -> Result<Self, Error> {
-        let split = |axis: &Axis, length, per_tick| -> (Vec<Tick>, Vec<Tick>) {
-            let ticks = axis.ticks(length, per_tick).into_iter();
-            ticks.partition(|tick| !tick.text.is_empty())
-        };
-        let (x_major, x_minor) = split(&chart.x, about[0], PER_X_TICK);
-        let (y_major, y_minor) = split(&chart.y, about[1], PER_Y_TICK);
+        let (x, base) = chart.x.fitting(about[0], font)?;
+        let y = chart.y.ticks(most_ticks(about[1], PER_Y_TICK), 0.0);
+        let split =
+            |ticks: Vec<Tick>| -> (Vec<Tick>, Vec<Tick>) { ticks.into_iter().partition(|tick| !tick.text.is_empty()) };
+        let ((x_major, x_minor), (y_major, y_minor)) = (split(x), split(y));
         let major = [x_major, y_major];
         let mut widths = [Vec::new(), Vec::new()];
         for (ticks, widths) in major.iter().zip(&mut widths) {
@@ -137,8 +185,14 @@ impl<'a> Axes<'a> {
                 widths.push(font.line(&tick.text, SMALL)?.width);
             }
         }
+        let label = match (base, chart.x.label.as_str()) {
+            (None, label) => label.to_owned(),
+            (Some(base), "") => format!("from {base}"),
+            (Some(base), label) => format!("{label}, from {base}"),
+        };
         Ok(Axes {
             chart,
+            label,
             major,
             minor: [x_minor, y_minor],
             widths,
@@ -151,15 +205,21 @@ impl<'a> Axes<'a> {
             return [0.0, 0.0];
         }
         let beside = if self.chart.y.label.is_empty() { 0.0 } else { BESIDE };
-        let below = if self.chart.x.label.is_empty() { TEXT } else { TEXTS };
+        let below = if self.label.is_empty() { TEXT } else { TEXTS };
         let widest = self.widths[1].iter().copied().fold(0.0, f64::max);
         [2.0 * TICK + widest + beside * SMALL, 2.0 * TICK + below * SMALL]
     }
 
-    /// How far the last text of the horizontal axis reaches beyond the frame, at most.
-    pub fn overhang(&self) -> f64 {
-        let last = self.major[0].last().zip(self.widths[0].last());
-        last.map_or(0.0, |(tick, width)| width / 2.0 * self.chart.x.position(tick.value))
+    /// How far the first and the last text of the horizontal axis reach beyond the frame, at most.
+    pub fn overhang(&self) -> [f64; 2] {
+        let (ticks, widths) = (&self.major[0], &self.widths[0]);
+        let inward = |tick: &Tick| self.chart.x.position(tick.value);
+        let first = ticks.first().zip(widths.first());
+        let last = ticks.last().zip(widths.last());
+        [
+            first.map_or(0.0, |(tick, width)| width / 2.0 * (1.0 - inward(tick))),
+            last.map_or(0.0, |(tick, width)| width / 2.0 * inward(tick)),
+        ]
     }
 
     /// Blanks texts of the horizontal axis that would touch the one before them.
@@ -236,8 +296,8 @@ impl<'a> Axes<'a> {
         let mut mesh = context.configure_mesh();
         mesh.disable_mesh().axis_style(style).label_style(text);
         mesh.set_all_tick_mark_size(pixels(TICK));
-        if !self.chart.x.label.is_empty() {
-            mesh.x_desc(&self.chart.x.label);
+        if !self.label.is_empty() {
+            mesh.x_desc(&self.label);
         }
         if !self.chart.y.label.is_empty() {
             mesh.y_desc(&self.chart.y.label);

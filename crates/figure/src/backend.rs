@@ -46,8 +46,8 @@ pub(crate) fn line_style(stroke: Stroke) -> ShapeStyle {
 }
 
 /// A filling of plotters.
-pub(crate) fn fill_style(Colour(r, g, b): Colour, opacity: f64) -> ShapeStyle {
-    ShapeStyle::from(RGBAColor(r, g, b, opacity)).filled()
+pub(crate) fn fill_style(Colour(r, g, b): Colour) -> ShapeStyle {
+    ShapeStyle::from(RGBAColor(r, g, b, 1.0)).filled()
 }
 
 fn colour(style: BackendColor) -> Colour {
@@ -72,13 +72,7 @@ impl<'p> Backend<'p> {
         Backend { page, frame }
     }
 
-    fn path(
-        &mut self,
-        lines: Vec<Vec<BackendCoord>>,
-        closed: bool,
-        fill: Option<(Colour, f64)>,
-        stroke: Option<Stroke>,
-    ) {
+    fn path(&mut self, lines: Vec<Vec<BackendCoord>>, closed: bool, fill: Option<Colour>, stroke: Option<Stroke>) {
         let on_page = |line: Vec<BackendCoord>| line.into_iter().map(millimetres).collect();
         self.page.scene.shapes.push(Shape::Path {
             lines: lines.into_iter().map(on_page).collect(),
@@ -165,8 +159,8 @@ impl DrawingBackend for Backend<'_> {
     }
 
     fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, corners: I, style: &S) -> Drawn {
-        let fill = (colour(style.color()), style.color().alpha);
-        self.path(vec![corners.into_iter().collect()], true, Some(fill), None);
+        let fill = Some(colour(style.color()));
+        self.path(vec![corners.into_iter().collect()], true, fill, None);
         Ok(())
     }
 
@@ -270,31 +264,20 @@ impl<'p> Drawable<Backend<'p>> for Mark {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
-    use crate::text::Font;
     use plotters::drawing::IntoDrawingArea;
     use plotters::element::{Circle, Pixel, Rectangle, Text};
     use plotters::style::FontDesc;
     use plotters_backend::{FontFamily, FontStyle};
 
     fn drawn(draw: impl Fn(Backend<'_>)) -> Page {
-        let mut page = Page {
-            font: Font::new(),
-            scene: Scene {
-                size: [50.0, 40.0],
-                shapes: Vec::new(),
-            },
-            texts: Vec::new(),
-            plots: Vec::new(),
-            legends: Vec::new(),
-        };
+        let mut page = Page::new([50.0, 40.0]);
         draw(Backend::new(&mut page, Rect::new(10.0, 5.0, 40.0, 30.0)));
         page
     }
 
     #[test]
     fn elements_of_plotters_are_shapes_and_not_pixels() {
-        let red = fill_style(Colour(255, 0, 0), 0.5);
+        let red = fill_style(Colour(255, 0, 0));
         let page = drawn(|backend| {
             assert_eq!(backend.get_size(), (50_000, 40_000));
             let area = backend.into_drawing_area();
@@ -313,7 +296,7 @@ mod tests {
         };
         assert_eq!((*at, *radius), ([10.0, 20.0], 1.5));
         assert_eq!(lines[0], [[0.0, 0.0], [1.0, 0.0], [1.0, 2.0], [0.0, 2.0]]);
-        assert_eq!(*fill, Some((Colour(255, 0, 0), 0.5)));
+        assert_eq!(*fill, Some(Colour(255, 0, 0)));
     }
 
     #[test]

@@ -8,6 +8,16 @@ use crate::colour::{Colour, ColourScale};
 use crate::scene::{Dash, Stroke};
 use crate::text::Anchor;
 
+/// How an area is filled. Colours are opaque: two that show through each other make a third one, which no
+/// legend explains.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fill {
+    /// With a colour.
+    Plain(Colour),
+    /// With an outline and parallel lines of this colour, between which others are seen.
+    Hatched(Colour),
+}
+
 /// How values are laid out along an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scale {
@@ -27,6 +37,9 @@ pub struct Axis {
     pub range: (f64, f64),
     /// Linear or logarithmic.
     pub scale: Scale,
+    /// A value at which a linear axis changes its scale, and where it lies: 0 at the lower end, 1 at the
+    /// upper one.
+    pub joint: Option<(f64, f64)>,
     /// Ticks with their texts, where the usual ones will not do.
     pub ticks: Option<Vec<(f64, String)>>,
     /// Whether lines run across the chart at its ticks.
@@ -40,6 +53,7 @@ impl Axis {
             label: label.into(),
             range,
             scale: Scale::Linear,
+            joint: None,
             ticks: None,
             grid: false,
         }
@@ -65,11 +79,23 @@ impl Axis {
         self
     }
 
+    /// With another scale above a value, which lies at this part of the axis. A joint that is not inside the
+    /// range, or of a logarithmic axis, is none.
+    pub fn with_joint(mut self, value: f64, position: f64) -> Self {
+        let inside = self.range.0 < value && value < self.range.1 && 0.0 < position && position < 1.0;
+        self.joint = (inside && self.scale == Scale::Linear).then_some((value, position));
+        self
+    }
+
     /// Where a value lies: 0 at the lower end, 1 at the upper one.
     pub(crate) fn position(&self, value: f64) -> f64 {
         let (low, high) = self.range;
         match self.scale {
-            Scale::Linear => (value - low) / (high - low),
+            Scale::Linear => match self.joint {
+                Some((joint, at)) if value > joint => at + (1.0 - at) * (value - joint) / (high - joint),
+                Some((joint, at)) => at * (value - low) / (joint - low),
+                None => (value - low) / (high - low),
+            },
             Scale::Log if value > 0.0 => (value / low).ln() / (high / low).ln(),
             // below everything that a logarithmic axis shows: lines leave through the lower end
             Scale::Log if value <= 0.0 => -10.0,
@@ -81,7 +107,11 @@ impl Axis {
     pub(crate) fn value(&self, position: f64) -> f64 {
         let (low, high) = self.range;
         match self.scale {
-            Scale::Linear => low + position * (high - low),
+            Scale::Linear => match self.joint {
+                Some((joint, at)) if position > at => joint + (position - at) / (1.0 - at) * (high - joint),
+                Some((joint, at)) => low + position / at * (joint - low),
+                None => low + position * (high - low),
+            },
             Scale::Log => low * (high / low).powf(position),
         }
     }
@@ -223,8 +253,7 @@ pub(crate) enum Layer {
     /// Between two curves over the same abscissae: `[x, low, high]`.
     Band {
         points: Vec<[f64; 3]>,
-        colour: Colour,
-        opacity: f64,
+        fill: Fill,
     },
     /// An interval of x over the whole height.
     Span {
@@ -245,7 +274,7 @@ pub(crate) enum Layer {
     Outline {
         corners: Vec<[f64; 2]>,
         stroke: Stroke,
-        fill: Option<Colour>,
+        fill: Option<Fill>,
     },
     Text {
         at: [f64; 2],
@@ -317,14 +346,10 @@ impl Chart {
     }
 
     /// The area between two curves, given as `[x, low, high]`; where any of them is not finite it is
-    /// interrupted.
-    pub fn band(self, points: impl IntoIterator<Item = [f64; 3]>, colour: Colour, opacity: f64) -> Self {
+    /// interrupted. Bands lie below the grid.
+    pub fn band(self, points: impl IntoIterator<Item = [f64; 3]>, fill: Fill) -> Self {
         let points = points.into_iter().collect();
-        self.add(Layer::Band {
-            points,
-            colour,
-            opacity,
-        })
+        self.add(Layer::Band { points, fill })
     }
 
     /// Shades an interval of x.
@@ -354,10 +379,11 @@ impl Chart {
         })
     }
 
-    /// Polygons coloured by a value each, without seams between them. The panel or the figure needs a colour
-    /// bar for the scale.
+    /// Polygons coloured by a value each, without seams between them, drawn by rising value. The panel or the
+    /// figure needs a colour bar for the scale.
     pub fn cells(mut self, cells: impl IntoIterator<Item = (Vec<[f64; 2]>, f64)>, scale: &ColourScale) -> Self {
-        let cells: Vec<_> = cells.into_iter().collect();
+        let mut cells: Vec<_> = cells.into_iter().collect();
+        cells.sort_by(|a, b| a.1.total_cmp(&b.1));
         self.scales
             .push((scale.clone(), scale.beyond(cells.iter().map(|cell| cell.1))));
         let coloured = |(corners, value)| (corners, scale.colour(value));
@@ -372,7 +398,7 @@ impl Chart {
     }
 
     /// A closed line, filled or not.
-    pub fn outline(self, corners: impl IntoIterator<Item = [f64; 2]>, stroke: Stroke, fill: Option<Colour>) -> Self {
+    pub fn outline(self, corners: impl IntoIterator<Item = [f64; 2]>, stroke: Stroke, fill: Option<Fill>) -> Self {
         let corners = corners.into_iter().collect();
         self.add(Layer::Outline { corners, stroke, fill })
     }
@@ -408,7 +434,13 @@ mod tests {
         let log = Axis::log("", (1.0, 100.0));
         assert!((log.position(10.0) - 0.5).abs() < 1e-15);
         assert!(log.position(0.0) < 0.0 && log.position(f64::NAN).is_nan());
-        for axis in [log, Axis::new("", (-3.0, 7.0))] {
+        let joined = Axis::new("", (0.0, 1.0)).with_joint(0.9, 0.6);
+        for (value, position) in [(0.0, 0.0), (0.45, 0.3), (0.9, 0.6), (0.95, 0.8), (1.0, 1.0)] {
+            assert!((joined.position(value) - position).abs() < 1e-15, "{value}");
+        }
+        assert!(joined.position(-1.0) < 0.0 && joined.position(1.1) > 1.0);
+        assert_eq!(Axis::new("", (0.0, 1.0)).with_joint(1.0, 0.5).joint, None);
+        for axis in [log, Axis::new("", (-3.0, 7.0)), joined] {
             for position in [0.0, 0.3, 1.0] {
                 assert!((axis.position(axis.value(position)) - position).abs() < 1e-15);
             }

@@ -114,9 +114,8 @@ pub struct ColourScale {
     pub label: String,
 }
 
-/// Steps of a colour bar, and of the colours of cells: beyond what eight bits show of a linear map, fewer
-/// give smaller files.
-const STEPS: f64 = 255.0;
+/// Steps of the colours of cells: neighbours among them cannot be told apart, and fewer give smaller files.
+const STEPS: f64 = 127.0;
 
 impl ColourScale {
     /// A scale; the range is checked when the figure is drawn.

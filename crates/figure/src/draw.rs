@@ -22,6 +22,8 @@ const BESIDE: f64 = 0.24;
 const LEADER: f64 = 1.5;
 /// Between texts in a row.
 const APART: f64 = 0.9;
+/// How far the texts of rules may reach beyond the frame: the border of the page is wider.
+const BEYOND: f64 = 1.5;
 
 /// A page being drawn, with the boxes by which its layout is judged.
 pub(crate) struct Page {
@@ -30,9 +32,28 @@ pub(crate) struct Page {
     pub texts: Vec<(String, Rect)>,
     pub plots: Vec<Rect>,
     pub legends: Vec<Rect>,
+    /// What the legends list.
+    pub entries: Vec<String>,
+    /// The labels of layers that have left something on the page.
+    pub drawn: Vec<String>,
 }
 
 impl Page {
+    pub fn new(size: [f64; 2]) -> Self {
+        Page {
+            font: Font::new(),
+            scene: Scene {
+                size,
+                shapes: Vec::new(),
+            },
+            texts: Vec::new(),
+            plots: Vec::new(),
+            legends: Vec::new(),
+            entries: Vec::new(),
+            drawn: Vec::new(),
+        }
+    }
+
     pub fn text(
         &mut self,
         text: &str,
@@ -114,7 +135,9 @@ pub(crate) fn margins(chart: &Chart, about: [f64; 2], page: &Page) -> Result<Mar
     if !chart.y.label.is_empty() {
         margins.left += BESIDE * SMALL;
     }
-    margins.right = margins.right.max(axes.overhang());
+    let [left, right] = axes.overhang();
+    margins.left = margins.left.max(left);
+    margins.right = margins.right.max(right);
     margins.top = margins.top.max(0.5 * SMALL);
     Ok(margins)
 }
@@ -153,7 +176,8 @@ fn rule_texts(chart: &Chart, page: &mut Page, plot: Rect) -> Result<(), Error> {
     for &(at, text) in &rules {
         wanted.push((x(at), page.font.line(text, SMALL)?.width + APART));
     }
-    for (&(at, text), place) in rules.iter().zip(spread(&wanted)) {
+    let bounds = [plot.left - BEYOND, plot.right + BEYOND];
+    for (&(at, text), place) in rules.iter().zip(spread(&wanted, bounds)) {
         let leader = vec![[x(at), plot.top], [place, plot.top - LEADER + 0.3]];
         page.line(leader, Stroke::solid(Colour::GREY, 0.15));
         let at = [place, plot.top - LEADER - 0.25 * SMALL];
@@ -163,12 +187,13 @@ fn rule_texts(chart: &Chart, page: &mut Page, plot: Rect) -> Result<(), Error> {
 }
 
 /// Centres of intervals of the given widths, in order and disjoint, as close to the wanted centres as
-/// possible (least squares, by merging neighbours that overlap).
-fn spread(wanted: &[(f64, f64)]) -> Vec<f64> {
+/// possible (least squares, by merging neighbours that overlap), within bounds if there is room.
+fn spread(wanted: &[(f64, f64)], [least, most]: [f64; 2]) -> Vec<f64> {
+    let within = |centre: f64, width: f64| centre.min(most - width / 2.0).max(least + width / 2.0);
     // (first index, count, centre of the group, its width)
     let mut groups: Vec<(usize, usize, f64, f64)> = Vec::new();
     for (index, &(centre, width)) in wanted.iter().enumerate() {
-        groups.push((index, 1, centre, width));
+        groups.push((index, 1, within(centre, width), width));
         while let [.., a, b] = groups.as_slice() {
             if a.2 + a.3 / 2.0 <= b.2 - b.3 / 2.0 {
                 break;
@@ -183,7 +208,7 @@ fn spread(wanted: &[(f64, f64)]) -> Vec<f64> {
             });
             let middle = wishes.sum::<f64>() / count as f64;
             groups.truncate(groups.len() - 2);
-            groups.push((first, count, middle, width));
+            groups.push((first, count, within(middle, width), width));
         }
     }
     let mut centres = Vec::with_capacity(wanted.len());
@@ -203,11 +228,21 @@ mod tests {
 
     #[test]
     fn texts_are_moved_apart_but_not_farther() {
-        assert_eq!(spread(&[(0.0, 1.0), (5.0, 1.0)]), [0.0, 5.0]);
-        let centres = spread(&[(0.0, 2.0), (1.0, 2.0), (10.0, 2.0), (10.0, 4.0)]);
+        let wide = [-100.0, 100.0];
+        assert_eq!(spread(&[(0.0, 1.0), (5.0, 1.0)], wide), [0.0, 5.0]);
+        let centres = spread(&[(0.0, 2.0), (1.0, 2.0), (10.0, 2.0), (10.0, 4.0)], wide);
         assert_eq!(&centres[..2], [-0.5, 1.5]);
         assert_eq!(centres[3] - centres[2], 3.0);
         let sum = centres[2] + centres[3];
         assert!((sum - 20.0).abs() < 1e-12);
+        // at the bounds they push each other inwards
+        assert_eq!(
+            spread(&[(0.0, 2.0), (0.5, 2.0), (9.0, 2.0)], [0.0, 9.0]),
+            [1.0, 3.0, 8.0]
+        );
+        assert_eq!(
+            spread(&[(7.0, 2.0), (9.0, 2.0), (9.5, 2.0)], [0.0, 10.0]),
+            [5.0, 7.0, 9.0]
+        );
     }
 }

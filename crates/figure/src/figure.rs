@@ -7,10 +7,11 @@ use crate::chart::Chart;
 use crate::colour::{Colour, ColourScale};
 use crate::draw::{self, Margins, Page, SMALL, TITLE};
 use crate::error::Error;
+use crate::layout::Layout;
 use crate::legend::{Legend, Side, bar_width, draw_bar};
-use crate::scene::{Rect, Scene};
+use crate::scene::Rect;
 use crate::surface::Surface;
-use crate::text::{Anchor, Font};
+use crate::text::Anchor;
 use std::ops::RangeInclusive;
 
 /// The width of a figure.
@@ -76,7 +77,7 @@ impl Panel {
         }
     }
 
-    /// With a title; in figures of several panels the letter (a), (b), ... comes before it.
+    /// With a title; in figures of several panels the letter (a), (b), ..., (z), (aa), ... comes before it.
     pub fn title(mut self, title: impl Into<String>) -> Self {
         self.title = title.into();
         self
@@ -129,57 +130,12 @@ impl Place {
 pub struct Figure {
     size: [f64; 2],
     description: String,
+    heading: String,
     panels: Vec<(Place, Panel)>,
     rows: Vec<f64>,
     columns: Vec<f64>,
     bar: Option<ColourScale>,
     legend: Option<Side>,
-}
-
-/// Where things are, for tests of the layout. Millimetres from the upper left corner.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Layout {
-    /// The page.
-    pub canvas: Rect,
-    /// Every text (its markup) with its box.
-    pub texts: Vec<(String, Rect)>,
-    /// Where data are drawn.
-    pub plots: Vec<Rect>,
-    /// Legends and colour bars.
-    pub legends: Vec<Rect>,
-}
-
-/// Boxes of texts are those of capitals; a fraction of a millimetre of overlap is not seen.
-const TOUCH: f64 = 0.15;
-
-impl Layout {
-    /// What is wrong with the layout: texts beyond the page or over each other, legends over data. Empty if
-    /// nothing is.
-    pub fn faults(&self) -> Vec<String> {
-        let mut faults = Vec::new();
-        for (index, (text, rect)) in self.texts.iter().enumerate() {
-            if !self.canvas.contains(rect, 0.0) {
-                faults.push(format!("text {text:?} leaves the page: {rect:?}"));
-            }
-            for (other, place) in &self.texts[..index] {
-                if rect.meets(place, TOUCH) {
-                    faults.push(format!("texts {other:?} and {text:?} overlap: {place:?}, {rect:?}"));
-                }
-            }
-        }
-        for legend in &self.legends {
-            if !self.canvas.contains(legend, 0.0) {
-                faults.push(format!("a legend leaves the page: {legend:?}"));
-            }
-            faults.extend(
-                self.plots
-                    .iter()
-                    .filter(|plot| plot.meets(legend, 0.0))
-                    .map(|plot| format!("a legend covers data: {legend:?}, {plot:?}")),
-            );
-        }
-        faults
-    }
 }
 
 /// Blank border of the page, and distances between panels, legends and titles.
@@ -197,6 +153,7 @@ impl Figure {
         Figure {
             size: [width.millimetres(), height],
             description: description.into(),
+            heading: String::new(),
             panels: Vec::new(),
             rows: Vec::new(),
             columns: Vec::new(),
@@ -235,6 +192,12 @@ impl Figure {
         self
     }
 
+    /// With a line above all panels: what holds for each of them.
+    pub fn heading(mut self, text: impl Into<String>) -> Self {
+        self.heading = text.into();
+        self
+    }
+
     /// With one colour bar for all panels, at the right.
     pub fn colour_bar(mut self, scale: &ColourScale) -> Self {
         self.bar = Some(scale.clone());
@@ -263,6 +226,8 @@ impl Figure {
             texts: page.texts,
             plots: page.plots,
             legends: page.legends,
+            entries: page.entries,
+            drawn: page.drawn,
         })
     }
 
@@ -349,20 +314,16 @@ impl Figure {
 
     fn draw(&self) -> Result<Page, Error> {
         self.check()?;
-        let mut page = Page {
-            font: Font::new(),
-            scene: Scene {
-                size: self.size,
-                shapes: Vec::new(),
-            },
-            texts: Vec::new(),
-            plots: Vec::new(),
-            legends: Vec::new(),
-        };
+        let mut page = Page::new(self.size);
         let [width, height] = self.size;
         let mut inside = Rect::new(BORDER, BORDER, width - BORDER, height - BORDER);
 
         // what all panels share takes its place first
+        if !self.heading.is_empty() {
+            let at = [inside.left, inside.top + 0.85 * TITLE];
+            page.text(&self.heading, TITLE, at, Anchor::Start, false, Colour::INK)?;
+            inside.top += TITLE + 2.0 * NEAR;
+        }
         if let Some(side) = self.legend {
             let legend = Legend::of(self.panels.iter().filter_map(|(_, panel)| panel.chart()), &page)?;
             let inside_width = inside.width();
@@ -494,7 +455,7 @@ impl Figure {
         if self.headed(panel) {
             let letter = match self.panels.len() {
                 1 => String::new(),
-                _ => format!("({}) ", char::from(b'a' + (index % 26) as u8)),
+                _ => format!("({}) ", letters(index)),
             };
             let at = [frame.left - margins.left, top + 0.85 * TITLE];
             let title = format!("{letter}{}", panel.title);
@@ -519,6 +480,16 @@ impl Figure {
         }
         Ok(())
     }
+}
+
+/// a, b, ..., z, aa, ab, ...
+fn letters(index: usize) -> String {
+    let before = if index < 26 {
+        String::new()
+    } else {
+        letters(index / 26 - 1)
+    };
+    format!("{before}{}", char::from(b'a' + (index % 26) as u8))
 }
 
 /// The sum of the gaps between rows or columns.
@@ -547,3 +518,23 @@ fn intervals(relative: &[f64], before: &[f64], after: &[f64], origin: f64, total
 
 /// The height of one line of labels, in millimetres: a help in choosing the height of a figure.
 pub const TEXT_LINE: f64 = 1.3 * SMALL;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn letters_go_on_after_z() {
+        let expected = [
+            (0, "a"),
+            (25, "z"),
+            (26, "aa"),
+            (27, "ab"),
+            (51, "az"),
+            (52, "ba"),
+            (701, "zz"),
+            (702, "aaa"),
+        ];
+        assert!(expected.iter().all(|&(index, text)| letters(index) == text));
+    }
+}

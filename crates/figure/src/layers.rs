@@ -6,11 +6,12 @@
 
 use crate::axes::{Axes, Context};
 use crate::backend::{Backend, Line, MIDDLE, Mark, Point, fill_style, refused};
-use crate::chart::{Chart, Layer, Marker};
+use crate::chart::{Chart, Fill, Layer, Marker};
 use crate::clip;
 use crate::colour::Colour;
 use crate::draw::{Page, SMALL};
 use crate::error::Error;
+use crate::hatch;
 use crate::scene::{Dash, Rect, Scene, Shape, Stroke};
 use plotters::coord::Shift;
 use plotters::drawing::DrawingArea;
@@ -55,18 +56,37 @@ impl<'a, 'p> Canvas<'a, 'p> {
         })
     }
 
-    /// Draws everything; spans lie below the grid, all else above it.
+    /// Draws everything: spans, then bands, then the grid, and all else above it.
     pub fn draw(mut self) -> Result<(), Error> {
-        let is_span = |layer: &Layer| matches!(layer, Layer::Span { .. });
-        let layers = || self.chart.layers.iter().map(|(layer, _)| layer);
-        let (spans, others): (Vec<&Layer>, Vec<&Layer>) = layers().partition(|layer| is_span(layer));
-        spans.into_iter().try_for_each(|layer| self.layer(layer))?;
-        self.axes.draw_grid(&mut self.context)?;
-        others.into_iter().try_for_each(|layer| self.layer(layer))?;
+        let layers = &self.chart.layers;
+        let order = |layer: &Layer| match layer {
+            Layer::Span { .. } => 0,
+            Layer::Band { .. } => 1,
+            _ => 2,
+        };
+        for turn in 0..3 {
+            if turn == 2 {
+                self.axes.draw_grid(&mut self.context)?;
+            }
+            let mut these = layers.iter().filter(|(layer, _)| order(layer) == turn);
+            these.try_for_each(|layer| self.labelled(layer))?;
+        }
         match self.chart.frame {
             true => self.axes.draw_axes(&mut self.context, &self.page, self.plot),
             false => Ok(()),
         }
+    }
+
+    /// Draws a layer, and notes its label if that has left something on the page.
+    fn labelled(&mut self, (layer, label): &(Layer, Option<String>)) -> Result<(), Error> {
+        let shapes = |canvas: &Self| canvas.backend.borrow().page.scene.shapes.len();
+        let before = shapes(self);
+        self.layer(layer)?;
+        let left_something = shapes(self) > before;
+        if let Some(label) = label.as_ref().filter(|_| left_something) {
+            self.backend.borrow_mut().page.drawn.push(label.clone());
+        }
+        Ok(())
     }
 
     fn position(&self, [x, y]: [f64; 2]) -> [f64; 2] {
@@ -80,8 +100,15 @@ impl<'a, 'p> Canvas<'a, 'p> {
 
     /// Where a point lies on the page.
     fn place(&self, point: [f64; 2]) -> [f64; 2] {
-        let ([x, y], plot) = (self.position(point), &self.plot);
-        [plot.left + x * plot.width(), plot.bottom - y * plot.height()]
+        self.on_page(self.position(point))
+    }
+
+    /// Where a position lies on the page.
+    fn on_page(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [
+            self.plot.left + x * self.plot.width(),
+            self.plot.bottom - y * self.plot.height(),
+        ]
     }
 
     /// The pieces of a line inside the frame.
@@ -96,23 +123,32 @@ impl<'a, 'p> Canvas<'a, 'p> {
     }
 
     /// The part of a polygon inside the frame.
-    fn fill(&mut self, corners: &[[f64; 2]], colour: Colour, opacity: f64) -> Result<(), Error> {
-        let inside: Vec<Point> = clip::polygon(corners, &FRAME)
-            .into_iter()
-            .map(|at| self.value(at))
-            .collect();
+    fn fill(&mut self, corners: &[[f64; 2]], fill: Fill) -> Result<(), Error> {
+        let inside = clip::polygon(corners, &FRAME);
         if inside.is_empty() {
             return Ok(());
         }
-        let area = Polygon::new(inside, fill_style(colour, opacity));
-        self.context.draw_series([area]).map(|_| ()).map_err(refused)
+        match fill {
+            Fill::Plain(colour) => {
+                let corners: Vec<Point> = inside.into_iter().map(|at| self.value(at)).collect();
+                let area = Polygon::new(corners, fill_style(colour));
+                self.context.draw_series([area]).map(|_| ()).map_err(refused)
+            }
+            Fill::Hatched(colour) => {
+                let corners: Vec<[f64; 2]> = inside.into_iter().map(|at| self.on_page(at)).collect();
+                self.backend
+                    .borrow_mut()
+                    .page
+                    .scene
+                    .shapes
+                    .extend(hatched(corners, colour));
+                Ok(())
+            }
+        }
     }
 
     fn markers(&mut self, positions: &[[f64; 2]], marker: Marker, radius: f64, colour: Colour) -> Result<(), Error> {
-        let visible = Rect::new(-SLACK, -SLACK, 1.0 + SLACK, 1.0 + SLACK);
-        let seen = positions
-            .iter()
-            .filter(|[x, y]| visible.contains(&Rect::new(*x, *y, *x, *y), 0.0));
+        let seen = positions.iter().filter(|at| is_inside(at));
         let mark = |at: &[f64; 2]| Mark {
             at: self.value(*at),
             marker,
@@ -135,47 +171,29 @@ impl<'a, 'p> Canvas<'a, 'p> {
                     None => Ok(()),
                 }
             }
-            Layer::Band {
-                points,
-                colour,
-                opacity,
-            } => {
-                let finite = |p: &[f64; 3]| p.iter().all(|c| c.is_finite());
-                points.split(|p| !finite(p)).try_for_each(|run| {
-                    let below = run.iter().map(|p| self.position([p[0], p[1]]));
-                    let above = run.iter().rev().map(|p| self.position([p[0], p[2]]));
-                    let corners: Vec<[f64; 2]> = below.chain(above).collect();
-                    self.fill(&corners, *colour, *opacity)
-                })
-            }
-            Layer::Span { from, to, colour } => {
-                let [from, to] = [from, to].map(|end| self.chart.x.position(*end));
-                self.fill(&[[from, 0.0], [to, 0.0], [to, 1.0], [from, 1.0]], *colour, 1.0)
-            }
+            Layer::Band { points, fill } => band(self.chart, points)
+                .iter()
+                .try_for_each(|corners| self.fill(corners, *fill)),
+            Layer::Span { from, to, colour } => self.fill(&span(self.chart, *from, *to), Fill::Plain(*colour)),
             Layer::Rule {
                 at, vertical, stroke, ..
-            } => {
-                let line = if *vertical {
-                    [1.0, 0.0].map(|end| [self.chart.x.position(*at), end])
-                } else {
-                    [0.0, 1.0].map(|end| [end, self.chart.y.position(*at)])
-                };
-                self.line(&line, *stroke)
-            }
+            } => self.line(&rule(self.chart, *at, *vertical), *stroke),
             Layer::Cells { cells } => {
                 let placed = cells.iter().filter_map(|(corners, colour)| {
                     let corners: Vec<[f64; 2]> = corners.iter().map(|p| self.place(*p)).collect();
                     let kept = clip::polygon(&corners, &self.plot);
                     (kept.len() > 2).then_some((*colour, kept))
                 });
-                let cells = placed.collect();
-                self.backend.borrow_mut().page.scene.shapes.push(Shape::Mesh { cells });
+                let cells: Vec<_> = placed.collect();
+                if !cells.is_empty() {
+                    self.backend.borrow_mut().page.scene.shapes.push(Shape::Mesh { cells });
+                }
                 Ok(())
             }
             Layer::Outline { corners, stroke, fill } => {
                 let mut corners: Vec<[f64; 2]> = corners.iter().map(|p| self.position(*p)).collect();
-                if let Some(colour) = fill {
-                    self.fill(&corners, *colour, 1.0)?;
+                if let Some(fill) = fill {
+                    self.fill(&corners, *fill)?;
                 }
                 corners.extend(corners.first().copied());
                 self.line(&corners, *stroke)
@@ -196,6 +214,73 @@ impl<'a, 'p> Canvas<'a, 'p> {
             }
         }
     }
+}
+
+fn is_inside(&[x, y]: &[f64; 2]) -> bool {
+    FRAME.contains(&Rect::new(x, y, x, y), SLACK)
+}
+
+/// The pieces of a band as polygons, by positions.
+fn band(chart: &Chart, points: &[[f64; 3]]) -> Vec<Vec<[f64; 2]>> {
+    let position = |x: f64, y: f64| [chart.x.position(x), chart.y.position(y)];
+    let runs = points.split(|p| !p.iter().all(|c| c.is_finite()));
+    let polygons = runs.map(|run| {
+        let below = run.iter().map(|p| position(p[0], p[1]));
+        let above = run.iter().rev().map(|p| position(p[0], p[2]));
+        below.chain(above).collect()
+    });
+    polygons.collect()
+}
+
+fn span(chart: &Chart, from: f64, to: f64) -> [[f64; 2]; 4] {
+    let [from, to] = [from, to].map(|end| chart.x.position(end));
+    [[from, 0.0], [to, 0.0], [to, 1.0], [from, 1.0]]
+}
+
+fn rule(chart: &Chart, at: f64, vertical: bool) -> [[f64; 2]; 2] {
+    match vertical {
+        true => [1.0, 0.0].map(|end| [chart.x.position(at), end]),
+        false => [0.0, 1.0].map(|end| [end, chart.y.position(at)]),
+    }
+}
+
+/// Whether any of a layer lies inside the frame, for legends, which are measured before anything is drawn.
+pub(crate) fn is_visible(chart: &Chart, layer: &Layer) -> bool {
+    let positions = |points: &[[f64; 2]]| -> Vec<[f64; 2]> {
+        points
+            .iter()
+            .map(|[x, y]| [chart.x.position(*x), chart.y.position(*y)])
+            .collect()
+    };
+    let line = |points: &[[f64; 2]]| !clip::polyline(points, &FRAME).is_empty();
+    let area = |corners: &[[f64; 2]]| !clip::polygon(corners, &FRAME).is_empty();
+    match layer {
+        Layer::Series { points, style } => {
+            let points = positions(points);
+            style.line.is_some() && line(&points) || style.marker.is_some() && points.iter().any(is_inside)
+        }
+        Layer::Band { points, .. } => band(chart, points).iter().any(|corners| area(corners)),
+        Layer::Span { from, to, .. } => area(&span(chart, *from, *to)),
+        Layer::Rule { at, vertical, .. } => line(&rule(chart, *at, *vertical)),
+        Layer::Cells { cells } => cells.iter().any(|(corners, _)| area(&positions(corners))),
+        Layer::Outline { corners, .. } => {
+            let mut corners = positions(corners);
+            corners.extend(corners.first().copied());
+            area(&corners) || line(&corners)
+        }
+        Layer::Text { .. } => false,
+    }
+}
+
+/// A hatched polygon on the page.
+pub(crate) fn hatched(corners: Vec<[f64; 2]>, colour: Colour) -> [Shape; 2] {
+    let shape = |lines, closed| Shape::Path {
+        lines,
+        closed,
+        fill: None,
+        stroke: Some(Stroke::solid(colour, hatch::WIDTH)),
+    };
+    [shape(hatch::hatch(&corners), false), shape(vec![corners], true)]
 }
 
 pub(crate) fn draw_marker(scene: &mut Scene, marker: Marker, radius: f64, colour: Colour, at: [f64; 2]) {
@@ -237,7 +322,7 @@ pub(crate) fn draw_marker(scene: &mut Scene, marker: Marker, radius: f64, colour
     scene.shapes.push(Shape::Path {
         lines: vec![placed.collect()],
         closed: true,
-        fill: Some((Colour::WHITE, 1.0)),
+        fill: Some(Colour::WHITE),
         stroke: Some(stroke),
     });
 }

@@ -1,11 +1,11 @@
 //! Legends and colour bars: what lines, markers and colours mean. They stand beside the data, never on it.
 
 use crate::axes::TICK;
-use crate::chart::{Chart, Layer, Style};
+use crate::chart::{Chart, Fill, Layer, Style};
 use crate::colour::{Colour, ColourScale};
 use crate::draw::{Page, SMALL};
 use crate::error::Error;
-use crate::layers::draw_marker;
+use crate::layers::{draw_marker, hatched, is_visible};
 use crate::scene::{Rect, Shape, Stroke};
 use crate::text::Anchor;
 use crate::ticks;
@@ -25,7 +25,7 @@ pub enum Side {
 #[derive(Clone, Debug, PartialEq)]
 enum Swatch {
     Series(Style),
-    Area(Colour, f64, Option<Stroke>),
+    Area(Fill, Option<Stroke>),
     Rule(Stroke),
 }
 
@@ -42,27 +42,30 @@ pub(crate) struct Legend {
 }
 
 impl Legend {
-    /// The labelled layers of all charts; a text that occurs twice is listed once.
+    /// The labelled layers of all charts of which something is seen; a text that occurs twice is listed once.
     pub fn of<'a>(charts: impl IntoIterator<Item = &'a Chart>, page: &Page) -> Result<Self, Error> {
         let mut entries: Vec<(Swatch, String, f64)> = Vec::new();
-        for (layer, label) in charts.into_iter().flat_map(|chart| &chart.layers) {
+        let layers = charts
+            .into_iter()
+            .flat_map(|chart| chart.layers.iter().map(move |(layer, label)| (chart, layer, label)));
+        for (chart, layer, label) in layers {
             let Some(label) = label else { continue };
-            if entries.iter().any(|entry| entry.1 == *label) {
+            if entries.iter().any(|entry| entry.1 == *label) || !is_visible(chart, layer) {
                 continue;
             }
             let swatch = match layer {
                 Layer::Series { style, .. } => Swatch::Series(*style),
-                Layer::Band { colour, opacity, .. } => Swatch::Area(*colour, *opacity, None),
-                Layer::Span { colour, .. } => Swatch::Area(*colour, 1.0, None),
+                Layer::Band { fill, .. } => Swatch::Area(*fill, None),
+                Layer::Span { colour, .. } => Swatch::Area(Fill::Plain(*colour), None),
                 Layer::Rule { stroke, .. } => Swatch::Rule(*stroke),
                 Layer::Outline { stroke, fill: None, .. } => Swatch::Rule(*stroke),
                 Layer::Outline {
                     stroke,
-                    fill: Some(colour),
+                    fill: Some(fill),
                     ..
-                } => Swatch::Area(*colour, 1.0, Some(*stroke)),
+                } => Swatch::Area(*fill, Some(*stroke)),
                 Layer::Cells { cells } => match cells.first() {
-                    Some((_, colour)) => Swatch::Area(*colour, 1.0, None),
+                    Some((_, colour)) => Swatch::Area(Fill::Plain(*colour), None),
                     None => continue,
                 },
                 Layer::Text { .. } => continue,
@@ -117,6 +120,7 @@ impl Legend {
                 swatch.draw(page, [x, y]);
                 let at = [x + SAMPLE + BESIDE, y + 0.36 * SMALL];
                 page.text(label, SMALL, at, Anchor::Start, false, Colour::INK)?;
+                page.entries.push(label.clone());
                 x += width + BETWEEN;
             }
             y += ROW;
@@ -144,13 +148,25 @@ impl Swatch {
                 }
             }
             Swatch::Rule(stroke) => page.scene.shapes.push(line(stroke)),
-            Swatch::Area(colour, opacity, stroke) => {
+            Swatch::Area(fill, stroke) => {
                 let (right, top, bottom) = (x + SAMPLE, y - 0.9, y + 0.9);
+                let corners = vec![[x, top], [right, top], [right, bottom], [x, bottom]];
+                let colour = match fill {
+                    Fill::Plain(colour) => Some(colour),
+                    Fill::Hatched(colour) => {
+                        page.scene.shapes.extend(hatched(corners.clone(), colour));
+                        None
+                    }
+                };
+                let stroke = match fill {
+                    Fill::Plain(_) => Some(stroke.unwrap_or(Stroke::solid(Colour::GREY, 0.1))),
+                    Fill::Hatched(_) => stroke,
+                };
                 page.scene.shapes.push(Shape::Path {
-                    lines: vec![vec![[x, top], [right, top], [right, bottom], [x, bottom]]],
+                    lines: vec![corners],
                     closed: true,
-                    fill: Some((colour, opacity)),
-                    stroke: Some(stroke.unwrap_or(Stroke::solid(Colour::GREY, 0.1))),
+                    fill: colour,
+                    stroke,
                 });
             }
         }
@@ -187,7 +203,8 @@ pub(crate) fn draw_bar(page: &mut Page, scale: &ColourScale, beside: Rect, beyon
     let top = beside.top + if beyond[1] { ARROW } else { 0.0 };
     let at = |t: f64| bottom + t * (top - bottom);
     let cells = (0..BANDS).map(|k| {
-        let [t0, t1] = [k, k + 1].map(|k| at(k as f64 / BANDS as f64));
+        // each reaches to the top, and the next ones cover it: no seams
+        let [t0, t1] = [k, BANDS].map(|k| at(k as f64 / BANDS as f64));
         let colour = scale.map.at((k as f64 + 0.5) / BANDS as f64);
         (colour, vec![[left, t0], [right, t0], [right, t1], [left, t1]])
     });

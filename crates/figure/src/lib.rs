@@ -48,7 +48,8 @@
 //!
 //! Where things go: panels are aligned by their frames; legends stand above, below or to the right of the
 //! data, never on them; a colour bar is at the right of its panel, or of the figure. [`Layout::faults`] finds
-//! texts that leave the page or overlap and legends that cover data, and is meant for tests of figures.
+//! texts that leave the page or overlap, legends that cover data or list what is not drawn, and is meant for
+//! tests of figures.
 
 mod axes;
 mod backend;
@@ -58,7 +59,9 @@ mod colour;
 mod draw;
 mod error;
 mod figure;
+mod hatch;
 mod layers;
+mod layout;
 mod legend;
 mod pixels;
 mod raster;
@@ -67,10 +70,11 @@ mod surface;
 mod text;
 mod ticks;
 
-pub use chart::{Axis, Chart, LINE, MARKER, Marker, Scale, Style, decades_of, range_of};
+pub use chart::{Axis, Chart, Fill, LINE, MARKER, Marker, Scale, Style, decades_of, range_of};
 pub use colour::{Colour, ColourMap, ColourScale};
 pub use error::Error;
-pub use figure::{Content, Figure, Layout, Panel, TEXT_LINE, Width};
+pub use figure::{Content, Figure, Panel, TEXT_LINE, Width};
+pub use layout::Layout;
 pub use legend::Side;
 pub use pixels::Pixels;
 pub use scene::{Dash, Rect, Stroke};

@@ -27,11 +27,15 @@ pub(crate) fn png(svg: &str, dpi: f64) -> Result<Vec<u8>, Error> {
     resvg::render(&tree, Transform::identity(), &mut pixels.as_mut());
 
     // the page is opaque, so that three channels hold everything
-    let rgb: Vec<u8> = pixels.data().chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
+    let colours: Vec<[u8; 3]> = pixels.data().chunks_exact(4).map(|p| [p[0], p[1], p[2]]).collect();
+    let colours = with_coarse_edges(&colours, size.width() as usize);
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, size.width(), size.height());
-    encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::High);
+    encoder.set_color(png::ColorType::Rgb);
+    // equal rows of flat colours are found as they are; differences of neighbours hide them
+    encoder.set_filter(png::Filter::NoFilter);
     let per_metre = (dpi / 0.0254).round() as u32;
     encoder.set_pixel_dims(Some(png::PixelDimensions {
         xppu: per_metre,
@@ -39,7 +43,41 @@ pub(crate) fn png(svg: &str, dpi: f64) -> Result<Vec<u8>, Error> {
         unit: png::Unit::Meter,
     }));
     let mut writer = encoder.write_header().map_err(|error| failed(&error))?;
-    writer.write_image_data(&rgb).map_err(|error| failed(&error))?;
+    writer
+        .write_image_data(&colours.concat())
+        .map_err(|error| failed(&error))?;
     writer.finish().map_err(|error| failed(&error))?;
     Ok(bytes)
+}
+
+/// The picture with fewer shades where nothing is flat. A pixel unlike its four neighbours lies on an edge,
+/// whose smoothing is good enough in steps of eight; all others, so whatever a colour bar or a legend
+/// explains, are left as they are. So pictures of many lines stay small.
+fn with_coarse_edges(colours: &[[u8; 3]], width: usize) -> Vec<[u8; 3]> {
+    let coarse = |channel: u8| (u16::from(channel) + 4) / 8 * 8;
+    let at = |index: usize| {
+        let (colour, column) = (colours[index], index % width);
+        let flat = column > 0 && colours[index - 1] == colour
+            || column + 1 < width && colours[index + 1] == colour
+            || index >= width && colours[index - width] == colour
+            || colours.get(index + width) == Some(&colour);
+        match flat {
+            true => colour,
+            false => colour.map(|channel| coarse(channel).min(255) as u8),
+        }
+    };
+    (0..colours.len()).map(at).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_edges_are_coarse() {
+        let (a, b, edge) = ([10, 20, 30], [200, 210, 255], [101, 103, 254]);
+        let picture = [a, a, edge, b, b, a, a, [77, 1, 252], b, b];
+        let expected = [a, a, [104, 104, 255], b, b, a, a, [80, 0, 255], b, b];
+        assert_eq!(with_coarse_edges(&picture, 5), expected);
+    }
 }

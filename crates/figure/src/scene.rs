@@ -118,7 +118,7 @@ pub(crate) enum Shape {
     Path {
         lines: Vec<Vec<[f64; 2]>>,
         closed: bool,
-        fill: Option<(Colour, f64)>,
+        fill: Option<Colour>,
         stroke: Option<Stroke>,
     },
     /// Cells that are stroked with their own colour, so that no seam shows between neighbours.
@@ -136,8 +136,11 @@ pub(crate) enum Shape {
     },
 }
 
-/// Width of the strokes that close the seams of a mesh.
-const SEAM: f64 = 0.06;
+/// Width of the strokes that close the seams of a mesh, in its units: one and a half pixels at 300 dots per
+/// inch. With less, a pixel that two neighbours share lets the page through.
+const SEAM: i64 = 12;
+/// Units of a mesh in a millimetre: whole numbers, counted from corner to corner, make small files.
+const UNITS: f64 = 100.0;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Scene {
@@ -159,20 +162,57 @@ fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }
 
-fn path_data(lines: &[Vec<[f64; 2]>], closed: bool, decimals: usize) -> String {
-    let mut data = String::new();
+/// Lines to the micrometre: after the first place steps from point to point, which are short.
+fn path_data(lines: &[Vec<[f64; 2]>], closed: bool) -> String {
+    let micrometres = |c: f64| (c * 1000.0).round() as i64;
+    let (mut data, mut at) = (String::new(), [0; 2]);
     for line in lines {
-        for (index, [x, y]) in line.iter().enumerate() {
-            data.push(if index == 0 { 'M' } else { 'L' });
-            data.push_str(&number(*x, decimals));
-            data.push(' ');
-            data.push_str(&number(*y, decimals));
+        let mut start = at;
+        for (index, point) in line.iter().enumerate() {
+            let place = point.map(micrometres);
+            let [x, y] = [0, 1].map(|i| (place[i] - at[i]) as f64 / 1000.0);
+            at = place;
+            if index == 0 {
+                start = place;
+            }
+            data.push(if index == 0 { 'm' } else { 'l' });
+            data.push_str(&number(x, 3));
+            if y >= 0.0 {
+                data.push(' ');
+            }
+            data.push_str(&number(y, 3));
         }
         if closed {
-            data.push('Z');
+            data.push('z');
+            at = start;
         }
     }
     data
+}
+
+/// Closed polygons in whole units, each corner relative to the one before; `pen` is where the last one began.
+fn mesh_data(cell: &[[f64; 2]], pen: &mut [i64; 2], data: &mut String) {
+    let mut at = *pen;
+    for (index, corner) in cell
+        .iter()
+        .map(|corner| corner.map(|c| (c * UNITS).round() as i64))
+        .enumerate()
+    {
+        let step = [corner[0] - at[0], corner[1] - at[1]];
+        at = corner;
+        match index {
+            0 => *pen = corner,
+            // a corner that rounding has put on the one before
+            _ if step == [0, 0] => continue,
+            _ => {}
+        }
+        // after a move all pairs are lines; a sign separates as well as a blank
+        data.push(if index == 0 { 'm' } else { ' ' });
+        let apart = if step[1] < 0 { "" } else { " " };
+        // writing to a String cannot fail
+        let _ = write!(data, "{}{apart}{}", step[0], step[1]);
+    }
+    data.push('z');
 }
 
 fn stroke_attributes(stroke: &Option<Stroke>) -> String {
@@ -234,25 +274,22 @@ impl Shape {
                 fill,
                 stroke,
             } => {
-                let fill = match fill {
-                    None => " fill=\"none\"".to_owned(),
-                    Some((colour, opacity)) if *opacity < 1.0 => {
-                        format!(" fill=\"{}\" fill-opacity=\"{}\"", colour.hex(), number(*opacity, 3))
-                    }
-                    Some((colour, _)) => format!(" fill=\"{}\"", colour.hex()),
-                };
-                let data = path_data(lines, *closed, 3);
-                writeln!(out, "<path d=\"{data}\"{fill}{}/>", stroke_attributes(stroke))
+                let fill = fill.map_or("none".to_owned(), Colour::hex);
+                let data = path_data(lines, *closed);
+                writeln!(out, "<path d=\"{data}\" fill=\"{fill}\"{}/>", stroke_attributes(stroke))
             }
             Shape::Mesh { cells } => {
-                let _ = writeln!(out, "<g stroke-width=\"{SEAM}\">");
+                let scale = 1.0 / UNITS;
+                let _ = writeln!(
+                    out,
+                    "<g transform=\"scale({scale})\" fill=\"currentColor\" stroke=\"currentColor\" stroke-width=\"{SEAM}\">"
+                );
                 for run in cells.chunk_by(|a, b| a.0 == b.0) {
-                    let colour = run[0].0.hex();
-                    let data: String = run
-                        .iter()
-                        .map(|(_, cell)| path_data(std::slice::from_ref(cell), true, 2))
-                        .collect();
-                    let _ = writeln!(out, "<path d=\"{data}\" fill=\"{colour}\" stroke=\"{colour}\"/>");
+                    let (mut pen, mut data) = ([0; 2], String::new());
+                    for (_, cell) in run {
+                        mesh_data(cell, &mut pen, &mut data);
+                    }
+                    let _ = writeln!(out, "<path color=\"{}\" d=\"{data}\"/>", run[0].0.hex());
                 }
                 writeln!(out, "</g>")
             }
@@ -321,6 +358,19 @@ mod tests {
         ] {
             assert_eq!(number(value, 3), text);
         }
+    }
+
+    #[test]
+    fn meshes_are_counted_from_corner_to_corner() {
+        let (mut pen, mut data) = ([0; 2], String::new());
+        // the last corner is the third but for rounding
+        for cell in [
+            vec![[1.0, 2.0], [1.5, 2.0], [1.5, 1.75], [1.501, 1.751]],
+            vec![[1.5, 2.0], [2.0, 2.0], [2.0, 2.5]],
+        ] {
+            mesh_data(&cell, &mut pen, &mut data);
+        }
+        assert_eq!(data, "m100 200 50 0 0-25zm50 0 50 0 0 50z");
     }
 
     #[test]

@@ -1,10 +1,15 @@
-//! Surfaces in space: orthographic projection, painter's algorithm, diffuse shading.
+//! Surfaces in space: orthographic projection, painter's algorithm.
+//!
+//! Colours are those of the bar and nothing else: light and shadow would alter the values that a reader takes
+//! from them. The lines on a surface show its form.
 //!
 //! A surface is a list of small quadrilaterals. Seen along the unit vector `d = (cos e cos a, cos e sin a,
 //! sin e)` from the eye's side (azimuth a, elevation e), a point is drawn at its coordinates along `(-sin a,
 //! cos a, 0)` and `d x` that; quadrilaterals are drawn in the order of their centres' depth `p . d`, the
-//! farthest first (Newell, Newell and Sancha 1972). That is exact for the graphs of functions over fine
-//! grids, which is what second-order maps are; larger quadrilaterals that pass through each other are not
+//! farthest first (Newell, Newell and Sancha 1972), in thin slices: what lies in one is drawn colour by colour,
+//! which makes small files. That is right for the graphs of functions over fine grids, which is what
+//! second-order maps are: where a surface turns away from the eye, two of its parts in one slice overlap by
+//! the square of the slice's thickness only. Larger quadrilaterals that pass through each other are not
 //! resolved.
 
 use crate::chart::range_of;
@@ -52,9 +57,6 @@ struct Quad {
 pub struct Surface {
     /// Where it is seen from.
     pub view: View,
-    /// How much darker a face turned away from the light is: 0 shows values as they are in the colour bar, 1
-    /// full shading.
-    pub shade: f64,
     quads: Vec<Quad>,
     lines: Vec<(Vec<[f64; 3]>, Stroke)>,
     box_: Option<[[f64; 3]; 2]>,
@@ -63,20 +65,6 @@ pub struct Surface {
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-/// Twice the area, as a vector: the product of the diagonals, which needs no planar quadrilateral.
-fn normal(corners: &[[f64; 3]; 4]) -> [f64; 3] {
-    let (a, b) = (minus(corners[2], corners[0]), minus(corners[3], corners[1]));
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }
 
 fn mean<'a>(points: impl ExactSizeIterator<Item = &'a [f64; 3]>) -> [f64; 3] {
@@ -88,13 +76,14 @@ fn mean<'a>(points: impl ExactSizeIterator<Item = &'a [f64; 3]>) -> [f64; 3] {
 /// Lines lie on the surface, and are drawn before what is nearer than they by this part of the surface's
 /// extent.
 const BIAS: f64 = 0.02;
+/// Slices of the surface, by depth: as thick as what lines are ahead of it.
+const SLICES: f64 = 50.0;
 
 impl Surface {
     /// An empty surface.
     pub fn new(view: View) -> Self {
         Surface {
             view,
-            shade: 0.35,
             quads: Vec::new(),
             lines: Vec::new(),
             box_: None,
@@ -152,66 +141,51 @@ impl Surface {
                 centre[1] - scale * (dot(p, up) - (d + u) / 2.0),
             ]
         };
-        // from above, half left of the eye
-        let light: [f64; 3] = std::array::from_fn(|i| 0.75 * toward[i] - 0.35 * right[i] + 0.56 * up[i]);
-        let length = dot(light, light).sqrt();
-        let lit = |quad: &Quad| {
-            let n = normal(&quad.corners);
-            let size = dot(n, n).sqrt();
-            if size == 0.0 {
-                return 1.0;
-            }
-            // both sides are surface
-            let facing = if dot(n, toward) < 0.0 { -1.0 } else { 1.0 };
-            (facing * dot(n, light) / (size * length)).max(0.0)
-        };
-
-        enum Item {
-            Face(Colour, Vec<[f64; 2]>),
-            Piece(Vec<[f64; 2]>, Stroke),
+        let slice = |depth: f64| (SLICES * (depth - near) / (far - near)).floor() as i64;
+        let mut faces: Vec<(i64, Colour, Vec<[f64; 2]>)> = Vec::new();
+        for Quad { corners, colour } in &self.quads {
+            let depth = dot(mean(corners.iter()), toward);
+            faces.push((slice(depth), *colour, corners.iter().map(|&p| place(p)).collect()));
         }
-        let mut items: Vec<(f64, Item)> = Vec::new();
-        for quad in &self.quads {
-            let dark = Colour(0, 0, 0).mix(quad.colour, 1.0 - self.shade * (1.0 - lit(quad)));
-            let corners = quad.corners.iter().map(|&p| place(p)).collect();
-            items.push((dot(mean(quad.corners.iter()), toward), Item::Face(dark, corners)));
-        }
-        let lift = BIAS * (far - near);
+        let mut pieces: Vec<(i64, Stroke, [[f64; 2]; 2])> = Vec::new();
         for (line, stroke) in &self.lines {
             for pair in line.windows(2) {
                 if pair.iter().flatten().all(|c| c.is_finite()) {
-                    let piece = pair.iter().map(|&p| place(p)).collect();
-                    items.push((dot(mean(pair.iter()), toward) + lift, Item::Piece(piece, *stroke)));
+                    let depth = dot(mean(pair.iter()), toward) + BIAS * (far - near);
+                    pieces.push((slice(depth), *stroke, [place(pair[0]), place(pair[1])]));
                 }
             }
         }
-        items.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for (_, item) in items {
-            match (item, scene.shapes.last_mut()) {
-                (Item::Face(colour, corners), Some(Shape::Mesh { cells })) => cells.push((colour, corners)),
-                (Item::Face(colour, corners), _) => scene.shapes.push(Shape::Mesh {
-                    cells: vec![(colour, corners)],
-                }),
-                (
-                    Item::Piece(piece, stroke),
-                    Some(Shape::Path {
-                        lines,
-                        closed: false,
-                        fill: None,
-                        stroke: Some(last),
-                    }),
-                ) if *last == stroke => match lines.last_mut() {
-                    Some(line) if line.last() == piece.first() => line.extend_from_slice(&piece[1..]),
-                    _ => lines.push(piece),
-                },
-                (Item::Piece(piece, stroke), _) => scene.shapes.push(Shape::Path {
-                    lines: vec![piece],
-                    closed: false,
-                    fill: None,
-                    stroke: Some(stroke),
-                }),
+        faces.sort_by_key(|&(slice, colour, _)| (slice, colour));
+        pieces.sort_by_key(|&(slice, ..)| slice);
+        let mut pieces = pieces.chunk_by(|a, b| a.0 == b.0).peekable();
+        for run in faces.chunk_by(|a, b| a.0 == b.0) {
+            while let Some(lines) = pieces.next_if(|lines| lines[0].0 < run[0].0) {
+                draw_pieces(lines, scene);
+            }
+            let cells = run.iter().map(|(_, colour, corners)| (*colour, corners.clone()));
+            scene.shapes.push(Shape::Mesh { cells: cells.collect() });
+        }
+        pieces.for_each(|lines| draw_pieces(lines, scene));
+    }
+}
+
+/// Pieces of lines in one slice: those of one stroke as one path.
+fn draw_pieces(pieces: &[(i64, Stroke, [[f64; 2]; 2])], scene: &mut Scene) {
+    for run in pieces.chunk_by(|a, b| a.1 == b.1) {
+        let mut lines: Vec<Vec<[f64; 2]>> = Vec::new();
+        for (_, _, [from, until]) in run {
+            match lines.last_mut() {
+                Some(line) if line.last() == Some(from) => line.push(*until),
+                _ => lines.push(vec![*from, *until]),
             }
         }
+        scene.shapes.push(Shape::Path {
+            lines,
+            closed: false,
+            fill: None,
+            stroke: Some(run[0].1),
+        });
     }
 }
 
@@ -242,14 +216,14 @@ mod tests {
     #[test]
     fn the_nearer_face_is_drawn_last_and_all_fit() {
         let scale = ColourScale::new(ColourMap::Viridis, (0.0, 1.0), "z");
-        let mut surface = Surface::new(View {
+        let surface = Surface::new(View {
             azimuth: -60.0,
             elevation: 60.0,
         })
         .quads([(square(1.0), 1.0), (square(0.0), 0.0)], &scale);
-        surface.shade = 0.0;
         let cells = drawn(&surface);
-        assert_eq!(cells[1].0, scale.colour(1.0), "the upper one is nearer to an eye above");
+        // the upper one is nearer to an eye above, and colours are those of the bar
+        assert_eq!([cells[0].0, cells[1].0], [0.0, 1.0].map(|value| scale.colour(value)));
         let all: Vec<[f64; 2]> = cells.iter().flat_map(|c| c.1.clone()).collect();
         for axis in 0..2 {
             let (low, high) = range_of(all.iter().map(|p| p[axis]), 0.0).unwrap();

@@ -53,6 +53,15 @@ pub(crate) fn linear(low: f64, high: f64, most: usize) -> Vec<Tick> {
         .collect()
 }
 
+/// A round number at or below the range, and its text: what is left of the range has few digits.
+pub(crate) fn base(low: f64, high: f64) -> (f64, String) {
+    let exponent = (high - low).log10().ceil() as i32;
+    let unit = 10f64.powi(exponent);
+    // a low end that is such a number but for rounding is its own base
+    let base = (low / unit + 1e-6).floor() * unit;
+    (base, format!("${}$", number(base, (-exponent).max(0) as usize)))
+}
+
 /// An end of the range that misses a tick by rounding has it.
 const SLACK: f64 = 1e-9;
 
@@ -108,6 +117,28 @@ mod tests {
         assert_eq!(texts(&linear(0.5, 0.50001, 3)), ["0.500000", "0.500005", "0.500010"]);
         assert_eq!(texts(&linear(0.0, 40000.0, 3)), ["0", "20000", "40000"]);
         assert_eq!(texts(&linear(0.0, 400000.0, 3)), ["0", "2·10^{5}", "4·10^{5}"]);
+    }
+
+    #[test]
+    fn what_is_left_of_a_narrow_range_has_few_digits() {
+        for (low, high, expected) in [
+            (0.5, 0.5 + 1e-9, "0.5"),
+            (0.353_553_390_593, 0.353_553_390_6, "0.35355339059"),
+            (-3.000_02, -3.0, "-3.0001"),
+            (81_234_567.0, 81_234_568.5, "81234560"),
+        ] {
+            let (base, text) = base(low, high);
+            assert_eq!(text.replace('$', ""), expected);
+            let left = (low - base, high - base);
+            assert!(
+                left.0 > -1e-5 * (high - low) && left.1 < 11.0 * (high - low),
+                "{left:?}"
+            );
+            assert!(
+                texts(&linear(left.0, left.1, 5)).iter().all(|text| text.len() < 16),
+                "{low} {high}"
+            );
+        }
     }
 
     #[test]

@@ -4,7 +4,7 @@
 //! The oracle is plain proportion: where a point must lie between the sides of the frame, which the layout
 //! tells, compared with the coordinates in the SVG.
 
-use eigenring_figure::{Axis, Chart, Colour, Dash, Figure, Marker, Panel, Rect, Stroke, Style, Width};
+use eigenring_figure::{Axis, Chart, Colour, Dash, Figure, Fill, Marker, Panel, Rect, Stroke, Style, Width};
 
 /// Frame and point are rounded to whole micrometres each, by half of one at most.
 const ROUNDING: f64 = 1.0e-3 + 1e-9;
@@ -23,12 +23,30 @@ fn paths(svg: &str, colour: &str) -> Vec<Vec<[f64; 2]>> {
     let paths = svg
         .lines()
         .filter(|line| line.starts_with("<path d") && line.contains(&stroke));
-    let lines = paths.flat_map(|path| path.split('"').nth(1).unwrap().split('M').skip(1));
-    let point = |text: &str| {
-        let (x, y) = text.trim_end_matches('Z').split_once(' ').unwrap();
-        [x.parse().unwrap(), y.parse().unwrap()]
-    };
-    lines.map(|line| line.split('L').map(point).collect()).collect()
+    paths.flat_map(|path| steps(path.split('"').nth(1).unwrap())).collect()
+}
+
+/// The lines of a path: moves and steps, each relative to the point before or, after a closed line, to its
+/// start.
+fn steps(data: &str) -> Vec<Vec<[f64; 2]>> {
+    let (mut at, mut lines) = ([0.0; 2], Vec::<Vec<[f64; 2]>>::new());
+    for line in data.split('m').skip(1) {
+        let mut points = Vec::new();
+        for step in line
+            .trim_end_matches('z')
+            .split('l')
+            .map(|step| step.replace('-', " -"))
+        {
+            let step: Vec<f64> = step.split_whitespace().map(|number| number.parse().unwrap()).collect();
+            at = [at[0] + step[0], at[1] + step[1]];
+            points.push(at);
+        }
+        if line.ends_with('z') {
+            at = points[0];
+        }
+        lines.push(points);
+    }
+    lines
 }
 
 /// The centres of circles.
@@ -97,8 +115,12 @@ fn what_is_outside_altogether_is_not_drawn() {
         .horizontal(1.2, Stroke::solid(RED, 0.2))
         .vertical(-0.1, "", Stroke::solid(RED, 0.2))
         .span(1.5, 2.0, RED)
-        .band([[2.0, 0.1, 0.2], [3.0, 0.1, 0.2]], RED, 0.5)
-        .outline([[1.1, 0.0], [1.2, 0.0], [1.2, 1.0]], Stroke::solid(RED, 0.2), Some(RED));
+        .band([[2.0, 0.1, 0.2], [3.0, 0.1, 0.2]], Fill::Plain(RED))
+        .outline(
+            [[1.1, 0.0], [1.2, 0.0], [1.2, 1.0]],
+            Stroke::solid(RED, 0.2),
+            Some(Fill::Hatched(RED)),
+        );
     let figure = figure(chart);
     let svg = figure.svg().unwrap();
     let seen = circles(&svg);
@@ -148,12 +170,16 @@ fn rich() -> Figure {
         Axis::log("$E$", (0.1, 100.0)).with_grid(),
     )
     .span(0.2, 0.4, Colour::SHADE)
-    .band([[0.0, 0.1, 1.0], [1.0, 0.2, 30.0]], Colour::line(2), 0.3)
+    .band([[0.0, 0.1, 1.0], [1.0, 0.2, 30.0]], Fill::Hatched(Colour::line(2)))
     .series(
         [[0.0, 0.5], [0.7, 40.0], [1.2, 3.0]],
         Style::line(1).marked(Marker::Diamond),
     )
-    .outline([[0.1, 1.0], [0.2, 1.0], [0.2, 2.0]], Stroke::solid(RED, 0.1), Some(RED));
+    .outline(
+        [[0.1, 1.0], [0.2, 1.0], [0.2, 2.0]],
+        Stroke::solid(RED, 0.1),
+        Some(Fill::Plain(RED)),
+    );
     figure(chart)
 }
 

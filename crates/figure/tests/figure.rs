@@ -1,8 +1,8 @@
 //! Whole figures: determinism, layout, what is refused.
 
 use eigenring_figure::{
-    Axis, Chart, Colour, ColourMap, ColourScale, Error, Figure, Marker, Panel, Side, Stroke, Style, Surface, View,
-    Width,
+    Axis, Chart, Colour, ColourMap, ColourScale, Error, Figure, Fill, Marker, Panel, Side, Stroke, Style, Surface,
+    View, Width,
 };
 
 fn chart(range: (f64, f64)) -> Chart {
@@ -89,8 +89,7 @@ fn what_lies_outside_the_axes_is_cut_off() {
         .series([[0.0, 0.0], [1.0, -1.0]], Style::line(1))
         .band(
             [[0.0, f64::NAN, 1.0], [0.5, 0.2, 7.0], [2.0, 0.2, 0.3]],
-            Colour::line(2),
-            0.5,
+            Fill::Plain(Colour::line(2)),
         );
     let figure = Figure::new(Width::One, 50.0, "").panel(0, 0, Panel::new(chart));
     let plot = figure.layout().unwrap().plots[0];
@@ -100,10 +99,12 @@ fn what_lies_outside_the_axes_is_cut_off() {
         .lines()
         .filter(|line| line.starts_with("<path d") && line.contains("stroke=\"#005b96\""))
     {
-        let data = path.split('"').nth(1).unwrap();
-        for point in data.split(['M', 'L']).filter(|point| !point.is_empty()) {
-            let (x, y) = point.split_once(' ').unwrap();
-            let (x, y): (f64, f64) = (x.parse().unwrap(), y.parse().unwrap());
+        let data = path.split('"').nth(1).unwrap().replace('-', " -");
+        assert!(!data.contains('z'), "lines and crosses are open");
+        let (mut x, mut y) = (0.0, 0.0);
+        for step in data.split(['m', 'l']).skip(1) {
+            let step: Vec<f64> = step.split_whitespace().map(|number| number.parse().unwrap()).collect();
+            (x, y) = (x + step[0], y + step[1]);
             // crosses have arms
             assert!(x > plot.left - 1.0 && x < plot.right + 1.0 && y > plot.top - 1.0 && y < plot.bottom + 1.0);
         }

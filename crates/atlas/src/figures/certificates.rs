@@ -1,11 +1,13 @@
 //! What is proven of the lambda-scheme: valence against lambda.
 //!
 //! A bar for each valence is cut where the status of a requirement changes. Undecided intervals, at kinks of
-//! the relaxation, are often narrower than any line: they are drawn with an outline, which stays visible, and
-//! the table has their ends. The statements are those of docs/certificates.md; they come from
+//! the relaxation, are often narrower than any line: they are hatched, with an outline, which stays visible,
+//! and the table has their ends. White is where nothing was examined. The statements are those of docs/certificates.md; they come from
 //! `certificates/ranges.csv` of the results. Without that file they are proven on the spot, some seconds a
 //! valence, and of many valences only a few are shown.
 
+use super::ranges::{Interval, stored};
+use super::valences::{Featured, axis};
 use super::{Drawing, Entry, Inputs};
 use crate::certificates::TABULATED;
 use crate::error::Error;
@@ -13,23 +15,17 @@ use crate::progress::each;
 use crate::table::Table;
 use eigenring_certify::Requirement;
 use eigenring_certify::range::{Curve, Limits, prove_range};
-use eigenring_figure::{Axis, Chart, Colour, Figure, Marker, Panel, Side, Stroke, Style, Width};
-use eigenring_scheme::lambda::Relaxation;
+use eigenring_figure::{Axis, Chart, Colour, Figure, Fill, Marker, Panel, Side, Stroke, Style};
 use eigenring_tune::study::LAMBDA_R1;
-use serde::Deserialize;
 
 pub const ENTRY: Entry = Entry {
-    name: "certificates",
-    title: "where the lambda-scheme's splines are proven C1 and of bounded curvature: valence against lambda",
-    reference: "none",
     valences: &[3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20],
-    lambdas: &[],
-    schemes: None,
-    colours: None,
-    range: false,
-    studies: false,
-    width: Width::Two,
-    build,
+    ..Entry::new(
+        "certificates",
+        "where the lambda-scheme's splines are proven C1 and of bounded curvature: valence against lambda",
+        "none",
+        build,
+    )
 };
 
 /// The requirements shown, with the titles of their panels.
@@ -40,25 +36,6 @@ const HALF: f64 = 0.4;
 
 /// The valences shown where more are asked for and none is stored.
 const FEW: [usize; 6] = [3, 4, 6, 8, 12, 20];
-
-/// A line of `ranges.csv`, of which the witness is not shown.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-struct Interval {
-    valence: usize,
-    range: String,
-    require: String,
-    from: f64,
-    to: f64,
-    status: String,
-}
-
-/// The intervals stored in a text of the form of `ranges.csv`.
-fn stored(text: &str) -> Result<Vec<Interval>, Error> {
-    let rows = csv::Reader::from_reader(text.as_bytes()).into_deserialize();
-    let rows: Result<Vec<Interval>, csv::Error> = rows.collect();
-    let rows = rows.map_err(|error| Error::content(error.to_string()).in_file("certificates/ranges.csv".as_ref()))?;
-    Ok(rows.into_iter().filter(|row| row.range == TABULATED).collect())
-}
 
 /// The intervals of a valence, proven now; none where there are no splines.
 fn proven(inputs: &Inputs<'_>, valence: usize) -> Result<Vec<Interval>, Error> {
@@ -97,13 +74,7 @@ fn valences(inputs: &Inputs<'_>) -> Vec<usize> {
 }
 
 fn intervals(inputs: &Inputs<'_>, valences: &[usize]) -> Result<Vec<Interval>, Error> {
-    let known = inputs
-        .studies
-        .ranges
-        .as_deref()
-        .map(stored)
-        .transpose()?
-        .unwrap_or_default();
+    let known = stored(inputs.studies.ranges.as_deref())?;
     let of = |&valence: &usize| {
         let mut here: Vec<Interval> = known.iter().filter(|row| row.valence == valence).cloned().collect();
         if here.is_empty() {
@@ -116,33 +87,9 @@ fn intervals(inputs: &Inputs<'_>, valences: &[usize]) -> Result<Vec<Interval>, E
     Ok(found.into_iter().flatten().filter(shown).collect())
 }
 
-/// The lambdas that are marked.
-struct Featured {
-    valence: usize,
-    lambda_l: f64,
-    lambda_c: Option<f64>,
-    ends: [Option<f64>; 2],
-}
-
-fn featured(inputs: &Inputs<'_>, valences: &[usize]) -> Result<Vec<Featured>, Error> {
-    let of = |&valence: &usize| {
-        let entry = inputs.studies.entry(valence)?;
-        Ok(Featured {
-            valence,
-            lambda_l: Relaxation::new(valence)?.lambda_l(),
-            lambda_c: entry.as_ref().map(|entry| entry.lambda_optimal),
-            ends: [
-                entry.as_ref().map(|_| LAMBDA_R1),
-                entry.as_ref().map(|entry| entry.lambda_r2),
-            ],
-        })
-    };
-    valences.iter().map(of).collect()
-}
-
 fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
     let valences = valences(inputs);
-    let (intervals, featured) = (intervals(inputs, &valences)?, featured(inputs, &valences)?);
+    let (intervals, featured) = (intervals(inputs, &valences)?, Featured::of(&valences, inputs)?);
     let (height, second) = if inputs.is_wide() {
         (92.0, (0, 1))
     } else {
@@ -163,31 +110,29 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
         figure: figure.legend(Side::Bottom),
         data: vec![
             ("", interval_table(&intervals)),
-            ("featured", featured_table(&featured)),
+            ("featured", Featured::table(&featured, &[], |_| Vec::new())),
         ],
     }])
 }
 
-/// Fill and outline of a status: light, dark, and white with a dark outline, also on a grey print.
-fn look(status: &str) -> (Colour, Stroke) {
-    let (green, red) = (Colour::line(3), Colour::line(1));
+/// Fill and outline of a status: light, dark, and hatched with a dark outline, also on a grey print.
+fn look(status: &str) -> (Fill, Stroke) {
+    let (light, dark) = (
+        Colour::line(3).mix(Colour::WHITE, 0.6),
+        Colour::line(1).mix(Colour::INK, 0.3),
+    );
     match status {
-        "proven" => (green.mix(Colour::WHITE, 0.6), Stroke::solid(green, 0.1)),
-        "refuted" => (red.mix(Colour::INK, 0.3), Stroke::solid(red.mix(Colour::INK, 0.3), 0.1)),
-        _ => (Colour::WHITE, Stroke::solid(Colour::INK, 0.3)),
+        "proven" => (Fill::Plain(light), Stroke::solid(Colour::line(3), 0.1)),
+        "refuted" => (Fill::Plain(dark), Stroke::solid(dark, 0.1)),
+        _ => (Fill::Hatched(Colour::INK), Stroke::solid(Colour::INK, 0.3)),
     }
 }
 
+/// The lambdas shown: all that are examined, with room for the markers at their ends.
+const SHOWN_LAMBDAS: (f64, f64) = (0.12, 0.93);
+
 fn chart<'a>(valences: &[usize], intervals: impl Iterator<Item = &'a Interval>, featured: &[Featured]) -> Chart {
-    let (first, last) = (
-        valences.iter().copied().min().unwrap_or(3),
-        valences.iter().copied().max().unwrap_or(3),
-    );
-    // about eight ticks, on multiples of the step
-    let step = (last - first).div_ceil(8).max(1);
-    let ticks = (first..=last).filter(|valence| valence % step == 0);
-    let x = Axis::new("valence $N$", (first as f64 - 0.7, last as f64 + 0.7)).with_integers(ticks);
-    let mut chart = Chart::new(x, Axis::new("subdominant eigenvalue $λ$", (0.1, 0.95)));
+    let mut chart = Chart::new(axis(valences), Axis::new("subdominant eigenvalue $λ$", SHOWN_LAMBDAS));
     // undecided ones last: on top of their neighbours
     let mut bars: Vec<&Interval> = intervals.collect();
     bars.sort_by_key(|bar| {
@@ -207,7 +152,10 @@ fn chart<'a>(valences: &[usize], intervals: impl Iterator<Item = &'a Interval>, 
         featured.iter().filter_map(point).collect()
     };
     chart
-        .series(points(&|row| row.ends[1]), Style::points(Marker::Diamond, Colour::INK))
+        .series(
+            points(&|row| row.lambda_r2),
+            Style::points(Marker::Diamond, Colour::INK),
+        )
         .label("$λ_{r2}$")
         .series(
             points(&|row| row.lambda_c),
@@ -219,7 +167,7 @@ fn chart<'a>(valences: &[usize], intervals: impl Iterator<Item = &'a Interval>, 
             Style::points(Marker::Circle, Colour::INK),
         )
         .label("$λ_l$")
-        .series(points(&|row| row.ends[0]), Style::points(Marker::Square, Colour::INK))
+        .series(points(&|_| Some(LAMBDA_R1)), Style::points(Marker::Square, Colour::INK))
         .label("$λ_{r1}$")
 }
 
@@ -237,42 +185,16 @@ fn interval_table(intervals: &[Interval]) -> Table {
     table
 }
 
-fn featured_table(featured: &[Featured]) -> Table {
-    let mut table = Table::new(["valence", "lambda_r1", "lambda_l", "lambda_C", "lambda_r2"]);
-    for row in featured {
-        table.push(vec![
-            row.valence.into(),
-            row.ends[0].into(),
-            row.lambda_l.into(),
-            row.lambda_c.into(),
-            row.ends[1].into(),
-        ]);
-    }
-    table
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn only_the_ranges_over_all_lambdas_are_read() {
-        let text = "valence,range,require,from,to,status,witness\n\
-            3,recommended,c1,0.2,0.5,proven,\n\
-            3,tabulated,c1,0.15,0.9,proven,\n\
-            3,tabulated,bounded,0.15,0.35,refuted,\"s > 1, here\"\n";
-        let rows = stored(text).unwrap();
-        assert_eq!(rows.len(), 2);
-        assert_eq!((rows[1].to, rows[1].status.as_str()), (0.35, "refuted"));
-        assert!(matches!(
-            stored("valence,range\nx,tabulated\n"),
-            Err(Error::InFile { .. })
-        ));
-    }
-
-    #[test]
-    fn statuses_differ_in_grey() {
-        let grey = |status: &str| look(status).0.grey();
-        assert!(grey("undecided") > grey("proven") + 0.1 && grey("proven") > grey("refuted") + 0.2);
+    fn statuses_differ_in_grey_and_undecided_is_not_white() {
+        let grey = |status: &str| match look(status).0 {
+            Fill::Plain(colour) => colour.grey(),
+            Fill::Hatched(_) => f64::NAN,
+        };
+        assert!(grey("undecided").is_nan() && grey("proven") > grey("refuted") + 0.2 && grey("proven") < 0.95);
     }
 }

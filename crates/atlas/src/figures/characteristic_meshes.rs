@@ -8,22 +8,17 @@ use super::grid::Grid;
 use super::nets::Net;
 use super::{Drawing, Entry, Inputs};
 use crate::error::Error;
-use crate::table::Table;
-use eigenring_figure::{Figure, Panel, Width};
+use eigenring_figure::{Figure, Panel};
 use eigenring_scheme::families::tension;
 
 pub const ENTRY: Entry = Entry {
-    name: "characteristic-meshes",
-    title: "eigenvectors of the tension scheme's subdominant pair, u0 = 0.01; columns: valences, rows: orders",
-    reference: "Fang, Ma and Wang, Fig. 10",
     valences: &[3, 6, 13, 20],
-    lambdas: &[],
-    schemes: None,
-    range: false,
-    colours: None,
-    studies: false,
-    width: Width::Two,
-    build,
+    ..Entry::new(
+        "characteristic-meshes",
+        "eigenvectors of the tension scheme's subdominant pair, u0 = 0.01; columns: valences, rows: orders",
+        "Fang, Ma and Wang, Fig. 10",
+        build,
+    )
 };
 
 /// The orders and the tension of the paper's figure.
@@ -34,40 +29,42 @@ const LEVEL: usize = 1;
 /// The narrowest panel and the most a panel is wide and high, in millimetres.
 const NARROWEST: f64 = 33.0;
 const SIDE: f64 = 38.0;
+/// The height of the line above all panels, in millimetres.
+const HEADING: f64 = 5.0;
 
 fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
     let grid = Grid::new(ORDERS.len(), inputs.valences.len(), inputs.width, 0.0, NARROWEST);
-    let height = grid.height(grid.across.min(SIDE));
+    let height = grid.height(grid.across.min(SIDE)) + HEADING;
     let mut figure = Figure::new(
         inputs.width,
         height,
         "Characteristic meshes of the generalised tension scheme",
     );
-    let mut table = Table::new(["order", "valence", "lambda", "ring", "x", "y"]);
+    // the level of u_1: u_(l+1) = (1 + u_l)/2
+    let next = (1.0 + TENSION) / 2.0;
+    figure = figure.heading(format!(
+        "$u_0$ = {TENSION}, refinement {} with $u_1$ = {next}",
+        LEVEL + 1
+    ));
+    let mut table = Net::table(&["order", "valence", "u0", "level", "lambda"]);
     for (row, order) in ORDERS.into_iter().enumerate() {
         for (column, &valence) in inputs.valences.iter().enumerate() {
             let scheme = tension::<f64>(valence, order, TENSION)?;
             let net = Net::at(&scheme, scheme.level(LEVEL), scheme.closed_rings()?)?;
-            for (ring, [x, y]) in &net.points {
-                table.push(vec![
-                    order.into(),
-                    valence.into(),
-                    net.lambda.into(),
-                    (*ring).into(),
-                    (*x).into(),
-                    (*y).into(),
-                ]);
-            }
+            let of = [
+                order.into(),
+                valence.into(),
+                TENSION.into(),
+                LEVEL.into(),
+                net.lambda.into(),
+            ];
+            net.push(&mut table, &of);
             let title = format!("$k$ = {order}, $N$ = {valence}");
             let (at_row, at_column) = grid.place(row, column);
             figure = figure.panel(at_row, at_column, Panel::new(net.chart()).title(title));
         }
     }
-    Ok(vec![Drawing {
-        stem: ENTRY.name.to_owned(),
-        figure,
-        data: vec![("", table)],
-    }])
+    Ok(vec![Drawing::of(&ENTRY, figure, table)])
 }
 
 #[cfg(test)]

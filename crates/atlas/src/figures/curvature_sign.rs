@@ -4,6 +4,7 @@
 //! of zero. The paper compares its scheme with that of Ma and Ma (2019), which minimises the unweighted
 //! objective; here both are tuned at the same lambda in the same domain.
 
+use super::valences::axis;
 use super::{Drawing, Entry, Inputs};
 use crate::error::Error;
 use crate::progress::each;
@@ -13,17 +14,15 @@ use eigenring_tune::objective::Settings;
 use eigenring_tune::sweep::{Options, Problem};
 
 pub const ENTRY: Entry = Entry {
-    name: "curvature-sign",
-    title: "K_m, wrong signs of the Gauss curvature, against the valence: weighted and unweighted tuning",
-    reference: "Ma, Wang and Ma 2023, Fig. 13",
     valences: &[3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20],
     lambdas: &[eigenring_tune::study::LAMBDA_A],
-    schemes: None,
-    colours: None,
-    range: false,
-    studies: false,
     width: Width::One,
-    build,
+    ..Entry::new(
+        "curvature-sign",
+        "K_m, wrong signs of the Gauss curvature, against the valence: weighted and unweighted tuning",
+        "Ma, Wang and Ma 2023, Fig. 13",
+        build,
+    )
 };
 
 /// K_m and the stencil that has it.
@@ -82,10 +81,6 @@ fn draw(lambda: f64, inputs: &Inputs<'_>) -> Result<Drawing, Error> {
     let rows: Vec<Row> = each(inputs.tuner.progress, "stencils", inputs.valences, |&valence| {
         row(valence, lambda, inputs)
     })?;
-    let (first, last) = (inputs.valences[0], inputs.valences[inputs.valences.len() - 1]);
-    let step = (last - first).div_ceil(8).max(1);
-    let x = Axis::new("valence $N$", (first as f64 - 0.7, last as f64 + 0.7))
-        .with_integers((first..=last).filter(|valence| valence % step == 0));
     type Value = fn(&Row) -> f64;
     let series: [(&str, usize, Marker, Value); 3] = [
         ("unweighted", 1, Marker::Square, |row| row.unweighted.sign_change),
@@ -98,7 +93,10 @@ fn draw(lambda: f64, inputs: &Inputs<'_>) -> Result<Drawing, Error> {
         .iter()
         .flat_map(|row| series.iter().map(move |(_, _, _, value)| value(row)));
     let (_, top) = range_of(values.chain([0.0]), 0.06).unwrap_or((0.0, 1.0));
-    let mut chart = Chart::new(x, Axis::new("$K_m$", (-0.03 * top, top)).with_grid());
+    let mut chart = Chart::new(
+        axis(inputs.valences),
+        Axis::new("$K_m$", (-0.03 * top, top)).with_grid(),
+    );
     for (name, colour, marker, value) in series {
         let points = rows.iter().map(|row| [row.valence as f64, value(row)]);
         chart = chart.series(points, Style::line(colour).marked(marker)).label(name);

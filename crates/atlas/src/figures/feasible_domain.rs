@@ -9,23 +9,19 @@ use super::{Drawing, Entry, Inputs};
 use crate::error::Error;
 use crate::progress::each;
 use crate::table::Table;
-use eigenring_figure::{
-    Axis, Chart, Colour, ColourMap, ColourScale, Figure, Marker, Panel, Side, Style, Width, range_of,
-};
+use eigenring_figure::{Axis, Chart, Colour, ColourMap, ColourScale, Figure, Marker, Panel, Side, Style, range_of};
 use eigenring_tune::sweep::Problem;
 
 pub const ENTRY: Entry = Entry {
-    name: "feasible-domain",
-    title: "the feasible weights f2, f3 with the objective E and its minima; columns: valences, rows: lambdas",
-    reference: "Ma, Wang and Ma 2023, section 3.2",
     valences: &[3, 5, 8],
     lambdas: &[eigenring_tune::study::LAMBDA_A, eigenring_tune::study::LAMBDA_M],
-    schemes: None,
-    range: false,
     colours: Some((0.0, 3.0)),
-    studies: false,
-    width: Width::Two,
-    build,
+    ..Entry::new(
+        "feasible-domain",
+        "the feasible weights f2, f3 with the objective E and its minima; columns: valences, rows: lambdas",
+        "Ma, Wang and Ma 2023, section 3.2",
+        build,
+    )
 };
 
 /// Room for the colour bar, in millimetres.
@@ -56,6 +52,13 @@ struct Found {
     minima: Vec<([f64; 2], f64)>,
 }
 
+impl Found {
+    /// At N = 4 there is no other f3 than mu, and E is drawn as a height and not as a colour.
+    fn is_flat(&self) -> bool {
+        self.problem.domain.plane().valence == 4
+    }
+}
+
 fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
     let options = inputs.studies.options();
     let wanted: Vec<(usize, usize)> = (0..inputs.valences.len())
@@ -83,7 +86,10 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
     );
     let height = grid.height(HEIGHT) + 6.0;
     let mut figure = Figure::new(inputs.width, height, "Feasible weights and objective");
-    figure = figure.colour_bar(&scale).legend(Side::Bottom);
+    figure = figure.legend(Side::Bottom);
+    if found.iter().any(|found| !found.is_flat()) {
+        figure = figure.colour_bar(&scale);
+    }
     let mut table = Table::new(["valence", "lambda", "point", "f2", "f3", "E"]);
     for (&(row, column), found) in wanted.iter().zip(&found) {
         let (valence, lambda) = (inputs.valences[column], inputs.lambdas[row]);
@@ -107,11 +113,7 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
         let panel = Panel::new(chart(found, &scale)).title(format!("$N$ = {valence}, $λ$ = {lambda}"));
         figure = figure.panel(at_row, at_column, panel);
     }
-    Ok(vec![Drawing {
-        stem: ENTRY.name.to_owned(),
-        figure,
-        data: vec![("", table)],
-    }])
+    Ok(vec![Drawing::of(&ENTRY, figure, table)])
 }
 
 /// The domain in cells; at N = 4 cells without height.
@@ -165,7 +167,7 @@ fn chart(found: &Found, scale: &ColourScale) -> Chart {
         (0, Marker::Disc, Colour::line(1), "optimum"),
         (1, Marker::Circle, Colour::line(1), "other minima"),
     ];
-    let flat = found.problem.domain.plane().valence == 4;
+    let flat = found.is_flat();
     // where a point of the domain with its value is drawn
     let place = |at: [f64; 2], value: f64| [at[0], if flat { value } else { at[1] }];
     let mut chart = if flat {

@@ -1,57 +1,34 @@
 //! Featured lambdas against the valence: Ma, Wang and Ma (2023), Fig. 3.
 //!
-//! Surfaces are C1 for lambda above 1/8, the outer rings' eigenvalue, and have bounded curvature from
-//! lambda_l on.
+//! The paper gives bounds: C1 above `lambda_C1 = 1/8`, the outer rings' eigenvalue, and bounded curvature from
+//! lambda_l on. Shaded is what the stored certificates prove of the splines, valence by valence: bounded
+//! curvature begins a little above lambda_l, where the relaxation ends, and nothing was examined outside the
+//! tabulated lambdas. Without stored certificates nothing is shaded.
 
+use super::ranges::{Known, known, stored};
+use super::valences::{Featured, axis};
 use super::{Drawing, Entry, Inputs};
 use crate::error::Error;
-use crate::table::Table;
+use crate::table::{Cell, Table};
 use eigenring_figure::{Axis, Chart, Colour, Dash, Figure, MARKER, Marker, Panel, Side, Stroke, Style, Width};
-use eigenring_scheme::lambda::Relaxation;
-use eigenring_tune::study::{LAMBDA_A, LAMBDA_M, LAMBDA_R1, lambda_catmull_clark, paper_row};
+use eigenring_tune::study::{LAMBDA_A, LAMBDA_M, LAMBDA_R1, paper_row};
 
 pub const ENTRY: Entry = Entry {
-    name: "feasible-region",
-    title: "featured lambdas and the feasible region against the valence",
-    reference: "Ma, Wang and Ma 2023, Fig. 3",
     valences: &[3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20],
-    lambdas: &[],
-    schemes: None,
-    colours: None,
-    range: false,
-    studies: false,
     width: Width::One,
-    build,
+    ..Entry::new(
+        "feasible-region",
+        "featured lambdas and the feasible region against the valence",
+        "Ma, Wang and Ma 2023, Fig. 3",
+        build,
+    )
 };
 
-/// The eigenvalue of the third ring and those beyond, below lambda wherever surfaces are C1.
+/// The eigenvalue of the third ring and those beyond, which has to be below lambda.
 const LAMBDA_C1: f64 = 0.125;
 
 /// Valences from which on markers are drawn smaller.
 const CROWDED: usize = 30;
-
-/// The featured values of one valence; those that are tuned exist for tabulated valences only.
-struct Row {
-    valence: usize,
-    lambda_l: f64,
-    lambda_cc: f64,
-    lambda_c: Option<f64>,
-    lambda_r2: Option<f64>,
-}
-
-fn rows(inputs: &Inputs<'_>) -> Result<Vec<Row>, Error> {
-    let row = |&valence: &usize| {
-        let entry = inputs.studies.entry(valence)?;
-        Ok(Row {
-            valence,
-            lambda_l: Relaxation::new(valence)?.lambda_l(),
-            lambda_cc: lambda_catmull_clark(valence),
-            lambda_c: entry.as_ref().map(|entry| entry.lambda_optimal),
-            lambda_r2: entry.as_ref().map(|entry| entry.lambda_r2),
-        })
-    };
-    inputs.valences.iter().map(row).collect()
-}
 
 fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
     let (chart, table) = chart(inputs)?;
@@ -61,42 +38,35 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
         0,
         Panel::new(chart).legend(Side::Bottom),
     );
-    Ok(vec![Drawing {
-        stem: ENTRY.name.to_owned(),
-        figure,
-        data: vec![("", table)],
-    }])
+    Ok(vec![Drawing::of(&ENTRY, figure, table)])
 }
 
 /// The chart and its data, for this figure and the overview.
 pub fn chart(inputs: &Inputs<'_>) -> Result<(Chart, Table), Error> {
-    let rows = rows(inputs)?;
+    let rows = Featured::of(inputs.valences, inputs)?;
     let n = |valence: usize| valence as f64;
-    let (first, last) = (
-        rows.iter().map(|row| row.valence).min().unwrap_or(3),
-        rows.iter().map(|row| row.valence).max().unwrap_or(3),
+    let mut chart = Chart::new(
+        axis(inputs.valences),
+        Axis::new("subdominant eigenvalue $λ$", (0.0, 1.0)),
     );
-    // about eight ticks, on multiples of the step
-    let step = (last - first).div_ceil(8).max(1);
-    let ticks = (first..=last).filter(|valence| valence % step == 0);
-    let x = Axis::new("valence $N$", (n(first) - 0.7, n(last) + 0.7)).with_integers(ticks);
-    let mut chart = Chart::new(x, Axis::new("subdominant eigenvalue $λ$", (0.0, 1.0)));
-
-    // the bands reach the sides of the chart
-    let band = |low: &dyn Fn(&Row) -> f64, high: &dyn Fn(&Row) -> f64| -> Vec<[f64; 3]> {
-        let inner = rows.iter().map(|row| [n(row.valence), low(row), high(row)]);
-        let mut points: Vec<[f64; 3]> = inner.collect();
-        if let (Some(&[_, a, b]), Some(&[_, c, d])) = (points.first(), points.last()) {
-            points.insert(0, [n(first) - 0.7, a, b]);
-            points.push([n(last) + 0.7, c, d]);
-        }
-        points
-    };
-    chart = chart
-        .band(band(&|_| LAMBDA_C1, &|row| row.lambda_l), Colour::line(5), 0.14)
-        .label("$C^1$, curvature unbounded")
-        .band(band(&|row| row.lambda_l, &|_| 1.0), Colour::line(3), 0.3)
-        .label("$C^1$, bounded curvature");
+    let intervals = stored(inputs.studies.ranges.as_deref())?;
+    for (wanted, line, tint, label) in [
+        (Known::Unbounded, 5, 0.86, "proven $C^1$, curvature unbounded"),
+        (Known::Bounded, 3, 0.7, "proven $C^1$, bounded curvature"),
+    ] {
+        let colour = Colour::line(line).mix(Colour::WHITE, tint);
+        let of = |row: &Featured| {
+            let (left, right) = (n(row.valence) - 0.5, n(row.valence) + 0.5);
+            let parts = known(&intervals, row.valence)
+                .into_iter()
+                .filter(|part| part.1 == wanted);
+            let cell = |([from, to], _): ([f64; 2], Known)| {
+                (vec![[left, from], [right, from], [right, to], [left, to]], colour)
+            };
+            parts.map(cell).collect::<Vec<_>>()
+        };
+        chart = chart.areas(rows.iter().flat_map(of)).label(label);
+    }
 
     let series = [
         (
@@ -139,7 +109,7 @@ pub fn chart(inputs: &Inputs<'_>) -> Result<(Chart, Table), Error> {
         (format!("$λ_M^*$ = {LAMBDA_M}"), LAMBDA_M, Dash::Solid),
         (format!("$λ_A^*$ = {LAMBDA_A}"), LAMBDA_A, Dash::Dashed),
         (format!("$λ_{{r1}}$ = {LAMBDA_R1}"), LAMBDA_R1, Dash::DashDot),
-        ("1/8".to_owned(), LAMBDA_C1, Dash::Dotted),
+        ("$λ_{C1}$ = 1/8".to_owned(), LAMBDA_C1, Dash::Dotted),
     ];
     for (name, value, dash) in constants {
         let stroke = Stroke {
@@ -154,42 +124,18 @@ pub fn chart(inputs: &Inputs<'_>) -> Result<(Chart, Table), Error> {
     let mut crosses = Style::points(Marker::Cross, Colour::INK);
     crosses.marker = Some((Marker::Cross, radius));
     chart = chart.series(printed, crosses).label("printed (2023)");
-    Ok((chart, table(&rows)))
-}
-
-fn table(rows: &[Row]) -> Table {
-    let mut table = Table::new([
-        "valence",
+    let printed = [
         "lambda_C1",
-        "lambda_r1",
-        "lambda_A",
-        "lambda_l",
-        "lambda_M",
-        "lambda_CC",
-        "lambda_C",
-        "lambda_r2",
         "paper_lambda_l",
         "paper_lambda_CC",
         "paper_lambda_C",
         "paper_lambda_r2",
-    ]);
-    for row in rows {
+    ];
+    let table = Featured::table(&rows, &printed, |row| {
         let paper = paper_row(row.valence);
-        table.push(vec![
-            row.valence.into(),
-            LAMBDA_C1.into(),
-            LAMBDA_R1.into(),
-            LAMBDA_A.into(),
-            row.lambda_l.into(),
-            LAMBDA_M.into(),
-            row.lambda_cc.into(),
-            row.lambda_c.into(),
-            row.lambda_r2.into(),
-            paper.map(|paper| paper.lambda_l).into(),
-            paper.map(|paper| paper.lambda_cc).into(),
-            paper.map(|paper| paper.lambda_c_star).into(),
-            paper.map(|paper| paper.lambda_r2).into(),
-        ]);
-    }
-    table
+        let values = paper.map(|paper| [paper.lambda_l, paper.lambda_cc, paper.lambda_c_star, paper.lambda_r2]);
+        let values = (0..4).map(|i| Cell::from(values.map(|values| values[i])));
+        std::iter::once(LAMBDA_C1.into()).chain(values).collect()
+    });
+    Ok((chart, table))
 }

@@ -22,9 +22,17 @@ const TITLE: f64 = 7.8;
 /// The lowest figure: the label of a colour bar fits beside it.
 const LOWEST: f64 = 52.0;
 
+/// The narrowest panel above which all these titles fit, and no narrower than given, in millimetres.
+pub fn narrowest(titles: impl IntoIterator<Item = String>, least: f64) -> f64 {
+    titles
+        .into_iter()
+        .map(|title| title_width(&title))
+        .fold(least, f64::max)
+}
+
 /// About the width of a title with its letter, in millimetres.
-pub fn title_width(title: &str) -> f64 {
-    let letters = "(a) ".chars().chain(title.chars());
+fn title_width(title: &str) -> f64 {
+    let letters = "(aa) ".chars().chain(title.chars());
     CHARACTER * letters.filter(|letter| !"$_^{}".contains(*letter)).count() as f64
 }
 

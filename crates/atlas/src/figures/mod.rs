@@ -17,6 +17,8 @@ mod grid;
 mod natural;
 mod nets;
 mod overview;
+mod points;
+mod ranges;
 mod samples;
 mod second_order;
 mod sheet;
@@ -26,6 +28,7 @@ mod studies;
 mod subject;
 mod sweep;
 mod tension_curves;
+mod valences;
 mod weighting;
 
 pub use studies::Studies;
@@ -45,6 +48,17 @@ pub struct Drawing {
     pub figure: Figure,
     /// Its data: a suffix of the file name, or an empty one, and the table.
     pub data: Vec<(&'static str, Table)>,
+}
+
+impl Drawing {
+    /// A picture with one table, both under the figure's own name.
+    fn of(entry: &Entry, figure: Figure, table: Table) -> Self {
+        Drawing {
+            stem: entry.name.to_owned(),
+            figure,
+            data: vec![("", table)],
+        }
+    }
 }
 
 /// What a figure is drawn from.
@@ -122,6 +136,28 @@ pub const FIGURES: &[Entry] = &[
 ];
 
 impl Entry {
+    /// A figure over two columns that takes no options.
+    const fn new(
+        name: &'static str,
+        title: &'static str,
+        reference: &'static str,
+        build: fn(&Inputs<'_>) -> Result<Vec<Drawing>, Error>,
+    ) -> Self {
+        Entry {
+            name,
+            title,
+            reference,
+            valences: &[],
+            lambdas: &[],
+            schemes: None,
+            colours: None,
+            range: false,
+            studies: false,
+            width: Width::Two,
+            build,
+        }
+    }
+
     /// The default schemes.
     pub fn default_schemes(&self) -> Result<Vec<SchemeName>, Error> {
         let schemes = self.schemes.unwrap_or_default().iter();
@@ -166,79 +202,4 @@ pub fn list() -> Table {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::progress::Silent;
-    use crate::table::Format;
-    use std::collections::BTreeSet;
-
-    /// Every figure with its default inputs and with the valences given, in both widths.
-    fn all(width: Width, valences: Option<&[usize]>, studies: &Studies) -> Vec<Drawing> {
-        let drawn = FIGURES.iter().flat_map(|entry| {
-            let schemes = entry.default_schemes().unwrap();
-            let inputs = Inputs {
-                schemes: &schemes,
-                colours: entry.colours,
-                valences: valences
-                    .filter(|_| !entry.valences.is_empty())
-                    .unwrap_or(entry.valences),
-                lambdas: entry.lambdas,
-                range: (0.15, 0.9),
-                width,
-                studies,
-                tuner: &Tuner::default(),
-            };
-            (entry.build)(&inputs).unwrap_or_else(|error| panic!("{}: {error}", entry.name))
-        });
-        drawn.collect()
-    }
-
-    fn stored() -> Studies {
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../results");
-        Studies::load(Some(std::path::Path::new(folder)), &[], &Silent).unwrap()
-    }
-
-    #[test]
-    fn names_are_distinct_and_unknown_ones_list_them() {
-        let names: BTreeSet<&str> = FIGURES.iter().map(|entry| entry.name).collect();
-        assert_eq!(names.len(), FIGURES.len());
-        let error = find("nothing").unwrap_err();
-        assert!(names.iter().all(|name| error.accepted().unwrap().contains(name)));
-    }
-
-    #[test]
-    fn nothing_overlaps_or_leaves_the_page() {
-        let few: &[usize] = &[3, 4, 6, 8, 12, 20];
-        let studies = stored();
-        for width in [Width::One, Width::Two] {
-            for valences in [None, Some(few), Some(&[3]), Some(&[20])] {
-                for drawing in all(width, valences, &studies) {
-                    let faults = drawing.figure.layout().unwrap().faults();
-                    assert!(
-                        faults.is_empty(),
-                        "{} {width:?} {valences:?}: {faults:#?}",
-                        drawing.stem
-                    );
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn drawings_are_deterministic_and_have_data() {
-        let studies = stored();
-        let draw = || all(Width::Two, Some(&[3, 6]), &studies);
-        let mut stems = BTreeSet::new();
-        for (a, b) in draw().into_iter().zip(draw()) {
-            assert!(stems.insert(a.stem.clone()), "{} twice", a.stem);
-            assert_eq!(a.figure.svg().unwrap(), b.figure.svg().unwrap());
-            assert!(!a.data.is_empty(), "{}", a.stem);
-            for ((name, table), (_, other)) in a.data.iter().zip(&b.data) {
-                let csv = table.render(Format::Csv);
-                assert!(csv.lines().count() > 2, "{} {name}", a.stem);
-                assert!(!csv.contains("NaN") && !csv.contains("inf"), "{} {name}", a.stem);
-                assert_eq!(csv, other.render(Format::Csv));
-            }
-        }
-    }
-}
+mod tests;

@@ -4,32 +4,26 @@
 //! number of rings and are drawn to the same size, so that pictures show how points crowd toward the centre
 //! (small lambda) or away from it.
 
-use super::grid::Grid;
+use super::grid::{Grid, NARROWEST, narrowest};
 use super::nets::Net;
 use super::subject::{Subject, chosen, featured};
 use super::{Drawing, Entry, Inputs};
 use crate::error::Error;
-use crate::table::Table;
-use eigenring_figure::{Figure, Panel, Width};
+use eigenring_figure::{Figure, Panel};
 
 pub const ENTRY: Entry = Entry {
-    name: "natural-configurations",
-    title: "control nets of the characteristic maps; columns: valences, rows: lambdas or schemes",
-    reference: "Ma, Wang and Ma 2023, Fig. 10",
     valences: &[5, 8, 11],
-    lambdas: &[],
     schemes: Some(&[]),
-    range: false,
-    colours: None,
-    studies: false,
-    width: Width::Two,
-    build,
+    ..Entry::new(
+        "natural-configurations",
+        "control nets of the characteristic maps; columns: valences, rows: lambdas or schemes",
+        "Ma, Wang and Ma 2023, Fig. 10",
+        build,
+    )
 };
 
 /// Rings of the nets.
 const RINGS: usize = 3;
-/// The narrowest panel, in millimetres: the longest titles, with two symbols, fit above it.
-const NARROWEST: f64 = 39.0;
 /// The most a panel is wide and high, in millimetres: five fit a page.
 const SIDE: f64 = 38.0;
 
@@ -40,32 +34,21 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
     });
     let columns: Vec<Vec<Subject>> = columns.collect::<Result<_, _>>()?;
     let rows = columns.iter().map(Vec::len).max().unwrap_or(0);
-    let grid = Grid::new(rows, columns.len(), inputs.width, 0.0, NARROWEST);
+    let narrowest = narrowest(columns.iter().flatten().map(Subject::full_title), NARROWEST);
+    let grid = Grid::new(rows, columns.len(), inputs.width, 0.0, narrowest);
     let height = grid.height(grid.across.min(SIDE));
     let mut figure = Figure::new(inputs.width, height, "Natural configurations");
-    let mut table = Table::new(["scheme", "valence", "lambda", "ring", "x", "y"]);
+    let mut table = Net::table(&["scheme", "valence", "lambda"]);
     for (column, subjects) in columns.iter().enumerate() {
         for (row, subject) in subjects.iter().enumerate() {
             let net = Net::new(&subject.scheme, RINGS)?;
-            for (ring, [x, y]) in &net.points {
-                table.push(vec![
-                    subject.name.as_str().into(),
-                    subject.valence.into(),
-                    net.lambda.into(),
-                    (*ring).into(),
-                    (*x).into(),
-                    (*y).into(),
-                ]);
-            }
+            let of = [subject.name.as_str().into(), subject.valence.into(), net.lambda.into()];
+            net.push(&mut table, &of);
             let (at_row, at_column) = grid.place(row, column);
             figure = figure.panel(at_row, at_column, Panel::new(net.chart()).title(subject.full_title()));
         }
     }
-    Ok(vec![Drawing {
-        stem: ENTRY.name.to_owned(),
-        figure,
-        data: vec![("", table)],
-    }])
+    Ok(vec![Drawing::of(&ENTRY, figure, table)])
 }
 
 #[cfg(test)]
@@ -74,6 +57,7 @@ mod tests {
     use crate::figures::Studies;
     use crate::progress::Silent;
     use crate::schemes::Tuner;
+    use eigenring_figure::Width;
     use eigenring_scheme::{PointNet, Spec, refine};
 
     #[test]

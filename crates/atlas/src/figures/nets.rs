@@ -2,9 +2,11 @@
 
 use super::sheet::{Turn, shrinking};
 use crate::error::Error;
-use eigenring_figure::{Chart, Colour, LINE, Marker, Stroke, Style};
+use crate::table::{Cell, Table};
+use eigenring_figure::{Chart, Colour, LINE, Marker, Style};
 use eigenring_scheme::{Level, Scheme, Site};
 use eigenring_spectral::{LocalSystem, Natural};
+use std::collections::BTreeMap;
 
 /// The inner rings of a natural configuration, its first point (1, 0) turned so that a sector's bisector
 /// points up.
@@ -78,7 +80,36 @@ impl Net {
         coordinates.fold(0.0, f64::max)
     }
 
-    /// The net, drawn to fill a square.
+    /// A table of nets: columns that tell them apart, then ring and coordinates.
+    pub fn table(keys: &[&str]) -> Table {
+        Table::new(keys.iter().copied().chain(["ring", "x", "y"]))
+    }
+
+    /// Adds the points, with what tells this net apart.
+    pub fn push(&self, table: &mut Table, keys: &[Cell]) {
+        for (ring, [x, y]) in &self.points {
+            let own = [(*ring).into(), (*x).into(), (*y).into()];
+            table.push(keys.iter().cloned().chain(own).collect());
+        }
+    }
+
+    /// The sides of the faces, each once.
+    fn edges(&self) -> Vec<[[f64; 2]; 2]> {
+        let mut edges = BTreeMap::new();
+        for (_, corners) in &self.faces {
+            let next = corners.iter().cycle().skip(1);
+            for (&a, &b) in corners.iter().zip(next) {
+                let bits = |p: [f64; 2]| p.map(f64::to_bits);
+                edges
+                    .entry((bits(a).min(bits(b)), bits(a).max(bits(b))))
+                    .or_insert([a, b]);
+            }
+        }
+        edges.into_values().collect()
+    }
+
+    /// The net, drawn to fill a square. Lines are thinner where they are many, and dots smaller than what
+    /// separates them, down to none.
     pub fn chart(&self) -> Chart {
         let side = 1.06 * self.radius();
         let colour = Colour::line(0);
@@ -87,24 +118,56 @@ impl Net {
             .faces
             .iter()
             .map(|(ring, corners)| (corners.clone(), tint(*ring + usize::from(!self.centre))));
-        let mut chart = Chart::map((-side, side), (-side, side)).areas(fills);
-        for (_, corners) in &self.faces {
-            chart = chart.outline(corners.clone(), Stroke::solid(colour, 0.6 * LINE), None);
+        let chart = Chart::map((-side, side), (-side, side)).areas(fills);
+        // lengths on a page where the square is as wide as in the figures of many nets
+        let length = |[a, b]: &[[f64; 2]; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) * USUAL / (2.0 * side);
+        let edges = self.edges();
+        let mut lengths: Vec<f64> = edges.iter().map(length).collect();
+        lengths.sort_by(f64::total_cmp);
+        let middle = lengths.get(lengths.len() / 2).copied().unwrap_or(USUAL);
+        let width = (0.12 * middle).clamp(0.06, 0.6 * LINE);
+        let gap = [f64::NAN; 2];
+        let lines = edges.iter().flat_map(|[a, b]| [*a, *b, gap]);
+        let mut chart = chart.series(lines, Style::solid(colour).wide(width));
+        // the shortest side at each point
+        let mut room: BTreeMap<[u64; 2], f64> = BTreeMap::new();
+        for edge in &edges {
+            for end in edge {
+                let shortest = room.entry(end.map(f64::to_bits)).or_insert(f64::INFINITY);
+                *shortest = shortest.min(length(edge));
+            }
         }
-        let mut dots = Style::points(Marker::Disc, colour);
-        // smaller where there are many
-        let radius = 0.42 * (80.0 / self.points.len() as f64).sqrt().min(1.0);
-        dots.marker = Some((Marker::Disc, radius));
-        let mut centre = Style::points(Marker::Disc, Colour::line(1));
-        centre.marker = Some((Marker::Disc, 0.8));
+        let room = |point: [f64; 2]| room.get(&point.map(f64::to_bits)).copied().unwrap_or(USUAL);
         let outer = self
             .points
             .iter()
             .skip(usize::from(self.centre))
             .map(|(_, point)| *point);
-        let middle = self.centre.then_some([0.0, 0.0]);
-        chart.series(outer, dots).series(middle, centre)
+        let outer: Vec<[f64; 2]> = outer.collect();
+        let usual = (0.22 * middle).min(DOT);
+        let fits = |radius: f64| move |room: f64| radius >= LEAST && radius <= ROOM * room;
+        let (large, small) = (fits(usual), fits(usual / 2.0));
+        let here = outer.iter().copied().filter(|&p| large(room(p)));
+        chart = chart.series(here, dots(colour, usual));
+        let here = outer.iter().copied().filter(|&p| !large(room(p)) && small(room(p)));
+        chart = chart.series(here, dots(colour, usual / 2.0));
+        let middle = self.centre.then_some(self.points[0].1);
+        let radius = middle.map_or(0.0, |centre| (ROOM * room(centre)).clamp(LEAST, 0.8));
+        chart.series(middle, dots(Colour::line(1), radius))
     }
+}
+
+/// The width of the square in the figures of many nets, in millimetres.
+const USUAL: f64 = 36.0;
+/// The usual radius of dots and the least one, and how much of the way to the next point one may take.
+const DOT: f64 = 0.42;
+const LEAST: f64 = 0.16;
+const ROOM: f64 = 0.35;
+
+fn dots(colour: Colour, radius: f64) -> Style {
+    let mut style = Style::points(Marker::Disc, colour);
+    style.marker = Some((Marker::Disc, radius));
+    style
 }
 
 #[cfg(test)]
@@ -135,6 +198,8 @@ mod tests {
             let net = Net::new(&catmull_clark(valence).unwrap(), 3).unwrap();
             assert_eq!(net.faces.len(), 9 * valence);
             assert_eq!(net.points.len(), 1 + 12 * valence);
+            // Euler: V - E + F = 1 of a disc
+            assert_eq!(net.points.len() + net.faces.len() - net.edges().len(), 1);
         }
     }
 }

@@ -6,23 +6,20 @@
 use super::nets::Net;
 use super::{Drawing, Entry, Inputs, feasible_region, sweep};
 use crate::error::Error;
-use crate::table::Table;
-use eigenring_figure::{Axis, Chart, Colour, Figure, Marker, Panel, Side, Style, Width};
+use eigenring_figure::{Axis, Chart, Colour, Figure, Marker, Panel, Side, Style};
 use eigenring_scheme::lambda::{Entry as Splines, Relaxation};
 use eigenring_tune::study::{LAMBDA_A, LAMBDA_M};
 
 pub const ENTRY: Entry = Entry {
-    name: "overview",
-    title: "f2 and f3 against lambda, featured lambdas against the valence, natural configurations",
-    reference: "Ma, Wang and Ma 2023, Fig. 1",
     valences: &[6],
-    lambdas: &[],
-    schemes: None,
-    colours: None,
     range: true,
     studies: true,
-    width: Width::Two,
-    build,
+    ..Entry::new(
+        "overview",
+        "f2 and f3 against lambda, featured lambdas against the valence, natural configurations",
+        "Ma, Wang and Ma 2023, Fig. 1",
+        build,
+    )
 };
 
 /// Rings of the nets.
@@ -35,8 +32,9 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
 fn draw(valence: usize, inputs: &Inputs<'_>) -> Result<Drawing, Error> {
     let (splines, points) = sweep::curve(valence, inputs)?;
     let y = Axis::new("weight", (0.0, 1.04 * sweep::largest(&points))).with_grid();
-    let chart = Chart::new(sweep::lambda_axis(inputs, true), y);
-    let mut weights = sweep::draw_weights(sweep::mark(chart, &splines, true), &points);
+    let chart = Chart::new(sweep::own_axis(inputs, &splines, true), y);
+    let chart = sweep::mark_joint(sweep::mark(chart, &splines, true));
+    let mut weights = sweep::draw_weights(chart, &points);
     let samples = &inputs.studies.get(valence)?.samples;
     type Weight = fn(&eigenring_tune::sweep::BranchSample) -> f64;
     let tuned: [(usize, Weight, &str); 2] = [
@@ -72,7 +70,7 @@ fn draw(valence: usize, inputs: &Inputs<'_>) -> Result<Drawing, Error> {
         figure = figure.wide_panel(0, 0, 6, weights).wide_panel(1, 0, 6, region);
         2
     };
-    let mut nets = Table::new(["symbol", "lambda", "f2", "f3", "ring", "x", "y"]);
+    let mut nets = Net::table(&["symbol", "lambda", "f2", "f3"]);
     let shown = [
         ("$λ_A^*$", LAMBDA_A),
         ("$λ_M^*$", LAMBDA_M),
@@ -80,18 +78,8 @@ fn draw(valence: usize, inputs: &Inputs<'_>) -> Result<Drawing, Error> {
     ];
     for (index, (symbol, lambda)) in shown.into_iter().enumerate() {
         let (net, [f2, f3]) = net(&splines, lambda)?;
-        for (ring, [x, y]) in &net.points {
-            let name = symbol.replace(['$', '^', '*'], "").replace('λ', "lambda");
-            nets.push(vec![
-                name.into(),
-                lambda.into(),
-                f2.into(),
-                f3.into(),
-                (*ring).into(),
-                (*x).into(),
-                (*y).into(),
-            ]);
-        }
+        let name = symbol.replace(['$', '^', '*'], "").replace('λ', "lambda");
+        net.push(&mut nets, &[name.into(), lambda.into(), f2.into(), f3.into()]);
         let title = match index {
             2 => format!("{symbol} = {lambda:.4}"),
             _ => format!("{symbol} = {lambda}"),

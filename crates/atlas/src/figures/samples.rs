@@ -6,26 +6,22 @@
 use super::{Drawing, Entry, Inputs, sweep};
 use crate::error::Error;
 use crate::table::Table;
-use eigenring_figure::{
-    Axis, Chart, Colour, Dash, Figure, Marker, Panel, Side, Stroke, Style, Width, decades_of, range_of,
-};
+use eigenring_figure::{Axis, Chart, Colour, Dash, Figure, Marker, Panel, Side, Stroke, Style, decades_of, range_of};
 use eigenring_scheme::lambda::{Entry as Splines, Relaxation};
 use eigenring_tune::objective::Objective;
 use eigenring_tune::study::TINY;
 use eigenring_tune::sweep::BranchSample;
 
 pub const ENTRY: Entry = Entry {
-    name: "samples",
-    title: "samples and splines of f2 and f3, their errors, E, s and theta, one picture for each valence",
-    reference: "Ma, Wang and Ma 2023, Fig. 6",
     valences: &[3, 6, 20],
-    lambdas: &[],
-    schemes: None,
-    colours: None,
     range: true,
     studies: true,
-    width: Width::Two,
-    build,
+    ..Entry::new(
+        "samples",
+        "samples and splines of f2 and f3, their errors, E, s and theta, one picture for each valence",
+        "Ma, Wang and Ma 2023, Fig. 6",
+        build,
+    )
 };
 
 fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
@@ -84,11 +80,9 @@ fn draw(valence: usize, inputs: &Inputs<'_>) -> Result<Drawing, Error> {
     let description = format!("Samples and splines of the lambda-scheme at valence {valence}");
     let mut figure = Figure::new(inputs.width, height, description);
     for (index, (title, mut chart)) in charts.into_iter().enumerate() {
-        if index + across >= count {
-            chart.x = sweep::lambda_axis(inputs, true);
-        }
+        chart.x = sweep::own_axis(inputs, &splines, index + across >= count);
         // the symbols of the featured values stand above the first row
-        let chart = sweep::mark(chart, &splines, index < across);
+        let chart = sweep::mark_joint(sweep::mark(chart, &splines, index < across));
         figure = figure.panel(index / across, index % across, Panel::new(chart).title(title));
     }
     let mut curve = sweep::curve_table();

@@ -8,26 +8,23 @@
 //! the same extent.
 
 use super::characteristic::resolution;
-use super::grid::{Grid, NARROWEST, title_width};
+use super::grid::{Grid, NARROWEST, narrowest};
 use super::sheet::{Point, Sheet, common_inner};
 use super::subject::{Subject, chosen};
-use super::{Drawing, Entry, Inputs};
+use super::{Drawing, Entry, Inputs, points};
 use crate::error::Error;
-use crate::table::Table;
-use eigenring_figure::{Colour, ColourMap, ColourScale, Figure, Panel, Stroke, Surface, View, Width};
+use eigenring_figure::{Colour, ColourMap, ColourScale, Figure, Panel, Stroke, Surface, View};
 
 pub const ENTRY: Entry = Entry {
-    name: "second-order-maps",
-    title: "cup and saddles in space, coloured by the Gauss curvature, wrong signs outlined; rows: schemes",
-    reference: "Ma, Wang and Ma 2023, Fig. 4b",
     valences: &[3, 6, 20],
-    lambdas: &[],
     schemes: Some(&["catmull-clark", "lambda:optimal"]),
-    range: false,
     colours: Some((-2.0, 2.0)),
-    studies: false,
-    width: Width::Two,
-    build,
+    ..Entry::new(
+        "second-order-maps",
+        "cup and saddles in space, coloured by the Gauss curvature, wrong signs outlined; rows: schemes",
+        "Ma, Wang and Ma 2023, Fig. 4b",
+        build,
+    )
 };
 
 /// Names of the maps.
@@ -45,14 +42,17 @@ const VIEW: View = View {
 const BAR: f64 = 16.0;
 /// The height of a panel relative to its width, as this view needs.
 const ASPECT: f64 = 0.8;
-/// Annuli on which the boundaries of patches are drawn.
+/// Annuli on which the boundaries of patches are drawn, if patches are at least this wide, in millimetres.
 const LINED: usize = 3;
+const WIDE: f64 = 1.3;
+/// About the radius of a surface on the page, in millimetres.
+const RADIUS: f64 = 20.0;
 /// Annuli on which wrong signs are outlined.
-const OUTLINED: usize = 8;
+const OUTLINED: usize = 6;
 /// The lowest figure, in millimetres: the label of the colour bar fits beside it.
 const LOWEST: f64 = 66.0;
-/// Cells of a figure, about.
-const CELLS: f64 = 33_000.0;
+/// Cells of a figure, about: larger files show nothing new at the printed size.
+const CELLS: f64 = 20_500.0;
 /// Steps of the tables along the edge of a patch.
 const STEPS: usize = 4;
 
@@ -63,15 +63,24 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
 fn draw(valence: usize, inputs: &Inputs<'_>) -> Result<Drawing, Error> {
     let subjects = chosen(inputs, valence)?;
     let inner = common_inner(subjects.iter().map(|subject| &subject.scheme))?;
-    let cells = resolution(9 * inner * inner * valence * subjects.len(), CELLS);
-    let scale = ColourScale::new(
-        ColourMap::Diverging,
-        inputs.colours.unwrap_or_default(),
-        "$K^*$ / mean |$K^*$|  (outlined: wrong sign)",
-    );
-    let title = |subject: &Subject, which: usize| format!("{}: {}", subject.title, MAPS[which]);
-    let widest = subjects.iter().map(|subject| title_width(&title(subject, 1)));
-    let narrowest = widest.fold(NARROWEST, f64::max);
+    let cells = resolution(9 * inner * inner * valence * subjects.len().max(1), CELLS);
+    let of = |subject: &Subject| Sheet::second_order(&subject.scheme, inner, cells);
+    let maps: Vec<[Sheet; 3]> = subjects.iter().map(of).collect::<Result<_, _>>()?;
+    let is_wrong = |(sheet, sign): (&Sheet, f64)| {
+        sheet
+            .all()
+            .iter()
+            .take(OUTLINED)
+            .any(|s| !s.zero_lines(sign).is_empty())
+    };
+    let outlined = maps.iter().any(|sheets| sheets.iter().zip(SIGNS).any(is_wrong));
+    let label = match outlined {
+        true => "$K^*$ / mean |$K^*$|  (outlined: wrong sign)",
+        false => "$K^*$ / mean |$K^*$|",
+    };
+    let scale = ColourScale::new(ColourMap::Diverging, inputs.colours.unwrap_or_default(), label);
+    let title = |subject: &Subject, which: usize| format!("{}: {}", subject.full_title(), MAPS[which]);
+    let narrowest = narrowest(subjects.iter().map(|subject| title(subject, 1)), NARROWEST);
     let abreast = Grid::new(subjects.len(), 3, inputs.width, BAR, narrowest);
     // where three maps do not fit side by side, schemes stand in the columns
     let (grid, turned) = match abreast.wraps() {
@@ -81,11 +90,8 @@ fn draw(valence: usize, inputs: &Inputs<'_>) -> Result<Drawing, Error> {
     let height = grid.height(ASPECT * grid.across).max(LOWEST);
     let description = format!("Second-order maps of valence {valence}");
     let mut figure = Figure::new(inputs.width, height, description).colour_bar(&scale);
-    let mut table = Table::new([
-        "scheme", "valence", "lambda", "map", "mu", "u", "v", "x", "y", "z", "gauss",
-    ]);
-    for (row, subject) in subjects.iter().enumerate() {
-        let sheets = Sheet::second_order(&subject.scheme, inner, cells)?;
+    let mut table = points::table(&["scheme", "valence", "lambda", "map", "mu"], &["z", "gauss"]);
+    for (row, (subject, sheets)) in subjects.iter().zip(&maps).enumerate() {
         for (which, sheet) in sheets.iter().enumerate() {
             let (at_row, at_column) = match turned {
                 true => grid.place(which, row),
@@ -95,21 +101,14 @@ fn draw(valence: usize, inputs: &Inputs<'_>) -> Result<Drawing, Error> {
             figure = figure.panel(at_row, at_column, panel.title(title(subject, which)));
         }
         for (which, sheet) in Sheet::second_order(&subject.scheme, inner, STEPS)?.iter().enumerate() {
-            for (u, v, point) in sheet.sector_points() {
-                table.push(vec![
-                    subject.name.as_str().into(),
-                    valence.into(),
-                    sheet.factors.plane.into(),
-                    MAPS[which].into(),
-                    sheet.factors.height.into(),
-                    u.into(),
-                    v.into(),
-                    point.x.into(),
-                    point.y.into(),
-                    point.z.into(),
-                    point.value.into(),
-                ]);
-            }
+            let of = [
+                subject.name.as_str().into(),
+                valence.into(),
+                sheet.factors.plane.into(),
+                MAPS[which].into(),
+                sheet.factors.height.into(),
+            ];
+            points::push(&mut table, &of, sheet, |point| [point.z, point.value]);
         }
     }
     Ok(Drawing {
@@ -138,7 +137,12 @@ fn surface(sheet: &Sheet, sign: f64, scale: &ColourScale) -> Surface {
         .quads(quads, scale)
         .within([[-disc, -disc, vertical * low], [disc, disc, vertical * high]]);
     for (level, annulus) in annuli.iter().enumerate().take(LINED) {
-        let thin = Stroke::solid(Colour::GREY, 0.07 * sheet.factors.plane.powi(level as i32));
+        let shrunk = sheet.factors.plane.powi(level as i32);
+        let patch = RADIUS * shrunk * std::f64::consts::PI / (sheet.inner * sheet.sectors()) as f64;
+        if level > 0 && patch < WIDE {
+            break;
+        }
+        let thin = Stroke::solid(Colour::GREY, 0.08 * shrunk);
         for line in annulus.edges() {
             surface = surface.line(line.into_iter().map(place), thin);
         }

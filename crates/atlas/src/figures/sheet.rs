@@ -120,9 +120,9 @@ pub struct Sheet {
     pub tiles: Vec<Tile>,
 }
 
-/// The hole that is left in the middle, relative to the rim: a fifth of a millimetre in a panel as wide as a
-/// third of a page. For more than five sectors, whose patches are narrower, it is larger in proportion.
-const HOLE: f64 = 0.008;
+/// The hole that is left in the middle, relative to the rim: half a millimetre in a panel as wide as a third
+/// of a page. For more than five sectors, whose patches are narrower, it is larger in proportion.
+const HOLE: f64 = 0.02;
 /// The most annuli: with lambda = 0.9 they leave a hole of 0.06, which is closed by a fan of triangles.
 const MOST: usize = 24;
 
@@ -281,6 +281,11 @@ impl Sheet {
             .rev()
             .find(|&cells| self.cells.is_multiple_of(cells))
             .unwrap_or(1);
+        self.scaled(times, cells)
+    }
+
+    /// The annulus `times` further in, with so many cells, a divisor of its own, along the edge of a patch.
+    fn scaled(&self, times: usize, cells: usize) -> Sheet {
         let step = self.cells / cells;
         let tiles = self.tiles.iter().map(|tile| {
             let at = |i: usize, j: usize| tile.points[step * (i + j * (self.cells + 1))];
@@ -297,6 +302,11 @@ impl Sheet {
             tiles: tiles.collect(),
             ..*self
         }
+    }
+
+    /// So many annuli, this one first, with the same cells.
+    pub fn first(&self, count: usize) -> Vec<Sheet> {
+        (0..count).map(|times| self.scaled(times, self.cells)).collect()
     }
 
     /// This annulus and those inside it, until the patches cannot be told apart.

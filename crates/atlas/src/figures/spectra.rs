@@ -1,30 +1,28 @@
 //! Eigenvalues by Fourier index: the spectrum of a scheme at a glance.
 //!
-//! Moduli of the eigenvalues of each Fourier block, on the smallest closed set of rings that hides none of
-//! interest (see [`Sufficient`]); blocks k and N-k have conjugate spectra, so k runs to N/2. A multiple
-//! eigenvalue of a block is as many marks side by side. For bounded curvature lambda is from block 1, mu =
-//! lambda^2 (s = 1) from blocks 0 and 2, and all others are smaller (Ma, Wang and Ma 2023, section 3).
+//! Moduli of the eigenvalues of each Fourier block, by their logarithms, on the smallest closed set of rings
+//! that hides none of interest (see [`Sufficient`]); blocks k and N-k have conjugate spectra, so k runs to
+//! N/2. A multiple eigenvalue of a block is as many marks side by side; which ones are defective is for the
+//! spectrum to say. For bounded curvature lambda is from block 1, mu = lambda^2 (s = 1) from blocks 0 and 2,
+//! and all others are smaller (Ma, Wang and Ma 2023, section 3).
 
 use super::grid::Grid;
 use super::subject::{Subject, chosen};
 use super::{Drawing, Entry, Inputs};
 use crate::error::Error;
 use crate::table::Table;
-use eigenring_figure::{Anchor, Axis, Chart, Colour, Dash, Figure, Marker, Panel, Side, Stroke, Style, Width};
+use eigenring_figure::{Anchor, Axis, Chart, Colour, Dash, Figure, Marker, Panel, Side, Stroke, Style, decades_of};
 use eigenring_spectral::{Eigenvalue, Spectrum, Sufficient};
 
 pub const ENTRY: Entry = Entry {
-    name: "spectrum",
-    title: "moduli of the eigenvalues by Fourier index; columns: valences, rows: schemes",
-    reference: "Doo and Sabin 1978",
     valences: &[5, 8],
-    lambdas: &[],
     schemes: Some(&["catmull-clark", "doo-sabin", "tension:order=8", "lambda:optimal"]),
-    range: false,
-    colours: None,
-    studies: false,
-    width: Width::Two,
-    build,
+    ..Entry::new(
+        "spectrum",
+        "moduli of the eigenvalues by Fourier index; columns: valences, rows: schemes",
+        "Doo and Sabin 1978",
+        build,
+    )
 };
 
 /// The narrowest panel, in millimetres: the labels of lambda and mu fit beside the marks.
@@ -33,10 +31,9 @@ const NARROWEST: f64 = 70.0;
 const HEIGHT: f64 = 38.0;
 /// Room for labels to the right of the last index, relative to that of the indices.
 const BESIDE: f64 = 0.36;
-/// How far the middle of a label is from its line, and how near lines can be with a label between them.
-const LIFT: f64 = 0.05;
-/// See [`LIFT`].
-const NEAR: f64 = 0.1;
+/// How far the middle of a label is from its line, relative to the height of the axis: that of lambda stands
+/// on it, that of mu hangs from it.
+const LIFT: f64 = 0.07;
 /// Eigenvalues below this are not drawn: structural zeros, of which there may be many.
 const SMALLEST: f64 = 1e-3;
 
@@ -78,7 +75,8 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
         0.0,
         NARROWEST,
     );
-    let mut figure = Figure::new(inputs.width, grid.height(HEIGHT) + 5.0, "Eigenvalues by Fourier index");
+    let mut figure = Figure::new(inputs.width, grid.height(HEIGHT) + 10.0, "Eigenvalues by Fourier index");
+    figure = figure.heading(format!("moduli above {SMALLEST}"));
     let mut table = Table::new([
         "scheme",
         "valence",
@@ -113,11 +111,7 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
             figure = figure.panel(at_row, at_column, Panel::new(chart).title(subject.full_title()));
         }
     }
-    Ok(vec![Drawing {
-        stem: ENTRY.name.to_owned(),
-        figure: figure.legend(Side::Bottom),
-        data: vec![("", table)],
-    }])
+    Ok(vec![Drawing::of(&ENTRY, figure.legend(Side::Bottom), table)])
 }
 
 fn chart(subject: &Subject, spectrum: &Spectrum) -> Chart {
@@ -127,7 +121,11 @@ fn chart(subject: &Subject, spectrum: &Spectrum) -> Chart {
     let width = last as f64 + 1.2;
     let right = last as f64 + 0.6 + BESIDE * width;
     let x = Axis::new("Fourier index $k$", (-0.6, right)).with_integers((0..=last).step_by(last / 10 + 1));
-    let mut chart = Chart::new(x, Axis::new("|eigenvalue|", (0.0, 1.06)));
+    let shown = || spectrum.eigenvalues.iter().filter(|e| e.modulus() > SMALLEST);
+    // marks and labels have room at both ends
+    let (low, _) = decades_of(shown().map(|e| 0.6 * e.modulus())).unwrap_or((SMALLEST, 1.0));
+    let (low, high) = (low.max(0.5 * SMALLEST), 2.0);
+    let mut chart = Chart::new(x, Axis::log("|eigenvalue|", (low, high)));
     let rule = |dash| Stroke {
         dash,
         ..Stroke::solid(Colour::GREY, 0.2)
@@ -135,15 +133,13 @@ fn chart(subject: &Subject, spectrum: &Spectrum) -> Chart {
     let lambda = spectrum.subdominant().map_or(0.0, Eigenvalue::modulus);
     let mu = spectrum.subsubdominant().map_or(0.0, Eigenvalue::modulus);
     let ratio = spectrum.curvature_ratio().unwrap_or_default();
-    // a label stands on its line; that of mu hangs from it where lambda's line is near
-    let below = if lambda - mu < NEAR { -LIFT } else { LIFT };
     for (value, lift, dash, label) in [
         (lambda, LIFT, Dash::Dashed, format!("$λ$ = {lambda:.4}")),
-        (mu, below, Dash::Dotted, format!("$μ$ = {ratio:.3} $λ^2$")),
+        (mu, -LIFT, Dash::Dotted, format!("$μ$ = {ratio:.3} $λ^2$")),
     ] {
         if value > SMALLEST {
             chart = chart.horizontal(value, rule(dash)).text(
-                [right - 0.02 * width, value + lift],
+                [right - 0.02 * width, value * (high / low).powf(lift)],
                 label,
                 Anchor::End,
                 Colour::INK,
@@ -152,11 +148,7 @@ fn chart(subject: &Subject, spectrum: &Spectrum) -> Chart {
     }
     for (kind_, marker, colour, label) in KINDS {
         let mut points = Vec::new();
-        let shown = spectrum
-            .eigenvalues
-            .iter()
-            .filter(|e| e.modulus() > SMALLEST && kind(e) == kind_);
-        for e in shown {
+        for e in shown().filter(|e| kind(e) == kind_) {
             let k = e.fourier.unwrap_or(0);
             // blocks k and N-k are counted together
             let copies = if k == 0 || 2 * k == n { 1 } else { 2 };
@@ -178,6 +170,7 @@ mod tests {
     use super::*;
     use crate::progress::Silent;
     use crate::schemes::Tuner;
+    use eigenring_figure::Width;
 
     fn value(re: f64, im: f64, multiplicity: usize, geometric: usize) -> Eigenvalue {
         Eigenvalue {

@@ -3,20 +3,17 @@
 
 use super::{Drawing, Entry, Inputs, sweep};
 use crate::error::Error;
-use eigenring_figure::{Axis, Chart, Figure, Panel, Side, Width};
+use eigenring_figure::{Axis, Chart, Figure, Panel, Side};
 
 pub const ENTRY: Entry = Entry {
-    name: "stencils",
-    title: "spline stencils f2(lambda), f3(lambda) of several valences in their feasible domains",
-    reference: "Ma, Wang and Ma 2023, Fig. 7",
     valences: &[3, 5, 6, 8, 12, 20],
-    lambdas: &[],
-    schemes: None,
-    colours: None,
     range: true,
-    studies: false,
-    width: Width::Two,
-    build,
+    ..Entry::new(
+        "stencils",
+        "spline stencils f2(lambda), f3(lambda) of several valences in their feasible domains",
+        "Ma, Wang and Ma 2023, Fig. 7",
+        build,
+    )
 };
 
 /// Heights of a row of panels over two columns and over one, and of what stands around them, in millimetres.
@@ -53,9 +50,5 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
         let chart = sweep::draw_weights(sweep::mark(chart, entry, true), points);
         figure = figure.panel(row, column, Panel::new(chart).title(format!("$N$ = {}", entry.valence)));
     }
-    Ok(vec![Drawing {
-        stem: ENTRY.name.to_owned(),
-        figure: figure.legend(Side::Bottom),
-        data: vec![("", table)],
-    }])
+    Ok(vec![Drawing::of(&ENTRY, figure.legend(Side::Bottom), table)])
 }

@@ -40,7 +40,7 @@ impl Subject {
                 };
                 format!("{symbol} = {}", four(lambda))
             }
-            SchemeName::File(_) => scheme.name().to_owned(),
+            SchemeName::File(_) => short(scheme.name()),
         };
         Ok(Subject {
             title,
@@ -55,6 +55,18 @@ impl Subject {
         format!("$N$ = {}, {}", self.valence, self.title)
     }
 }
+
+/// A file's name as far as it fits above a panel, without what would be markup.
+fn short(name: &str) -> String {
+    let plain: Vec<char> = name.chars().filter(|&c| c != '$').collect();
+    match plain.len() {
+        ..=FILE => plain.into_iter().collect(),
+        _ => plain[..FILE - 1].iter().chain(&['…']).collect(),
+    }
+}
+
+/// Characters of a file's name in a title.
+const FILE: usize = 22;
 
 /// Four decimals, without trailing zeros.
 fn four(number: f64) -> String {
@@ -105,48 +117,6 @@ pub fn featured(inputs: &Inputs<'_>, valence: usize) -> Result<Vec<Subject>, Err
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figures::{Studies, characteristic, natural, second_order, spectra};
-    use crate::progress::Silent;
-    use eigenring_figure::Width;
-
-    #[test]
-    fn panels_of_any_schemes_fit_both_widths() {
-        let studies = Studies::load(None, &[], &Silent).unwrap();
-        let specs = [
-            "catmull-clark",
-            "doo-sabin",
-            "tension:order=8",
-            "lambda:optimal",
-            "lambda:lambda=0.35",
-        ];
-        let schemes = specs.map(|spec| spec.parse::<SchemeName>().unwrap());
-        // Doo-Sabin has no second-order maps
-        let smooth = [schemes[2].clone(), schemes[4].clone()];
-        for width in [Width::One, Width::Two] {
-            for (entry, schemes, valences) in [
-                (natural::ENTRY, &schemes[..], &[3, 5, 8, 20][..]),
-                (natural::ENTRY, &[], &[3, 8, 20]),
-                (characteristic::ENTRY, &schemes, &[3, 20]),
-                (second_order::ENTRY, &smooth, &[4]),
-                (spectra::ENTRY, &schemes, &[3, 4, 8, 20]),
-            ] {
-                let inputs = Inputs {
-                    valences,
-                    lambdas: &[],
-                    schemes,
-                    colours: entry.colours,
-                    range: (0.15, 0.9),
-                    width,
-                    studies: &studies,
-                    tuner: &Tuner::default(),
-                };
-                for drawing in (entry.build)(&inputs).unwrap() {
-                    let faults = drawing.figure.layout().unwrap().faults();
-                    assert!(faults.is_empty(), "{} {width:?}: {faults:#?}", drawing.stem);
-                }
-            }
-        }
-    }
 
     #[test]
     fn titles() {
@@ -161,5 +131,7 @@ mod tests {
             let subject = Subject::new(&spec.parse().unwrap(), 5, &Tuner::default()).unwrap();
             assert_eq!(subject.full_title(), title);
         }
+        assert_eq!(short("my_$cheme"), "my_cheme");
+        assert_eq!(short(&"x".repeat(99)), "x".repeat(21) + "…");
     }
 }

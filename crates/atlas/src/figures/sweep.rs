@@ -3,7 +3,7 @@
 use super::{Inputs, Studies};
 use crate::error::Error;
 use crate::table::{Cell, Table};
-use eigenring_figure::{Axis, Chart, Colour, Dash, Stroke};
+use eigenring_figure::{Axis, Chart, Colour, Dash, Fill, Stroke};
 use eigenring_scheme::lambda::{Domain, Entry, Relaxation};
 use eigenring_tune::objective::Objective;
 use eigenring_tune::study::{LAMBDA_A, LAMBDA_M, lambda_catmull_clark};
@@ -12,6 +12,31 @@ use eigenring_tune::sweep::Options;
 /// The axis of the subdominant eigenvalue.
 pub fn lambda_axis(inputs: &Inputs<'_>, label: bool) -> Axis {
     Axis::new(if label { "subdominant eigenvalue $λ$" } else { "" }, inputs.range)
+}
+
+/// The axis for one valence. At large ones the lambdas above lambda_l, a third of the samples, are a small
+/// part of the range: they get a wider scale of their own.
+pub fn own_axis(inputs: &Inputs<'_>, entry: &Entry, label: bool) -> Axis {
+    let axis = lambda_axis(inputs, label);
+    let part = (inputs.range.1 - entry.lambda_l) / (inputs.range.1 - inputs.range.0);
+    match part < CROWDED {
+        true => axis.with_joint(entry.lambda_l, 1.0 - WIDENED),
+        false => axis,
+    }
+}
+
+/// A part of the axis that is widened, and how much of the axis it then takes.
+const CROWDED: f64 = 0.15;
+const WIDENED: f64 = 0.4;
+
+/// Shows where the axis changes its scale, if it does.
+pub fn mark_joint(chart: Chart) -> Chart {
+    match chart.x.joint {
+        Some((lambda, _)) => chart
+            .vertical(lambda, "", Stroke::solid(Colour::INK, 0.25))
+            .label("change of scale"),
+        None => chart,
+    }
 }
 
 /// Colours of f2 and f3 wherever they are drawn.
@@ -163,9 +188,11 @@ pub fn push_curve(table: &mut Table, valence: usize, points: &[Point]) {
     }
 }
 
-/// Adds what is feasible, and the splines, of f2 and f3.
+/// Adds what is feasible, and the splines, of f2 and f3. Where both are feasible, f3's hatching lies over f2's
+/// colour.
 pub fn draw_weights(chart: Chart, points: &[Point]) -> Chart {
-    let (blue, red) = (Colour::line(F2), Colour::line(F3));
+    let plain = Fill::Plain(Colour::line(F2).mix(Colour::WHITE, 0.7));
+    let hatched = Fill::Hatched(Colour::line(F3).mix(Colour::WHITE, 0.35));
     let band = |k: usize| {
         points.iter().map(move |p| match p.f2_ranges.get(k) {
             Some([low, high]) => [p.lambda, *low, *high],
@@ -173,18 +200,12 @@ pub fn draw_weights(chart: Chart, points: &[Point]) -> Chart {
             None => [p.lambda, f64::NAN, f64::NAN],
         })
     };
-    let mut chart = chart
-        .band(
-            points.iter().map(|p| [p.lambda, p.f3_range[0], p.f3_range[1]]),
-            red,
-            0.15,
-        )
-        .label("feasible $f_3$")
-        .band(band(0), blue, 0.26)
-        .label("feasible $f_2$ at this $f_3$");
+    let mut chart = chart.band(band(0), plain).label("feasible $f_2$ at this $f_3$");
     if points.iter().any(|p| p.f2_ranges.len() > 1) {
-        chart = chart.band(band(1), blue, 0.26);
+        chart = chart.band(band(1), plain);
     }
+    let of_f3 = points.iter().map(|p| [p.lambda, p.f3_range[0], p.f3_range[1]]);
+    chart = chart.band(of_f3, hatched).label("feasible $f_3$");
     chart
         .series(points.iter().map(|p| [p.lambda, p.f2]), style(F2))
         .label("$f_2(λ)$")

@@ -9,22 +9,15 @@ use super::grid::Grid;
 use super::{Drawing, Entry, Inputs};
 use crate::error::Error;
 use crate::table::Table;
-use eigenring_figure::{Chart, Colour, Dash, Figure, Marker, Panel, Side, Stroke, Style, Width, range_of};
+use eigenring_figure::{Chart, Colour, Dash, Figure, Marker, Panel, Side, Stroke, Style, range_of};
 use eigenring_spline::curve::{Curve, Ends};
 
-pub const ENTRY: Entry = Entry {
-    name: "tension-curves",
-    title: "one polygon, curves of several tensions and orders",
-    reference: "Fang, Ma and Wang, Eqs. 1 and 2",
-    valences: &[],
-    lambdas: &[],
-    schemes: None,
-    colours: None,
-    range: false,
-    studies: false,
-    width: Width::Two,
+pub const ENTRY: Entry = Entry::new(
+    "tension-curves",
+    "one polygon, curves of several tensions and orders",
+    "Fang, Ma and Wang, Eqs. 1 and 2",
     build,
-};
+);
 
 /// Convex and reflex corners, long and short edges.
 const POLYGON: [[f64; 2]; 8] = [

@@ -6,22 +6,15 @@
 use super::{Drawing, Entry, Inputs};
 use crate::error::Error;
 use crate::table::{Cell, Table};
-use eigenring_figure::{Axis, Chart, Colour, Figure, Panel, Side, Stroke, Style, Width};
+use eigenring_figure::{Axis, Chart, Colour, Figure, Panel, Side, Stroke, Style};
 use eigenring_tune::objective::Settings;
 
-pub const ENTRY: Entry = Entry {
-    name: "weighting",
-    title: "regularisation r(K, epsilon) and weight w(K, epsilon, n) of the objective",
-    reference: "Ma, Wang and Ma 2023, Fig. 5",
-    valences: &[],
-    lambdas: &[],
-    schemes: None,
-    colours: None,
-    range: false,
-    studies: false,
-    width: Width::Two,
+pub const ENTRY: Entry = Entry::new(
+    "weighting",
+    "regularisation r(K, epsilon) and weight w(K, epsilon, n) of the objective",
+    "Ma, Wang and Ma 2023, Fig. 5",
     build,
-};
+);
 
 /// `r(K, e)`, without cancellation for negative K.
 fn regularised(k: f64, e: f64) -> f64 {
@@ -85,11 +78,7 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
             second.1,
             Panel::new(right).title("weight").legend(Side::Bottom),
         );
-    Ok(vec![Drawing {
-        stem: ENTRY.name.to_owned(),
-        figure,
-        data: vec![("", table)],
-    }])
+    Ok(vec![Drawing::of(&ENTRY, figure, table)])
 }
 
 #[cfg(test)]

@@ -18,7 +18,8 @@ use std::process::{Command, ExitCode, Output, Stdio};
 /// With --check nothing is written there: each entry is made anew in a temporary folder and compared, number
 /// by number, with the files; the worst entries are printed and the exit code is 1 if any differs by more
 /// than the tolerances. Entries with a check of their own, which take long to make, are checked by it, and
-/// made anew when named with --only. Pictures are compared by the numbers that are stored beside them.
+/// made anew when named with --only. Pictures are compared by the numbers that are stored beside them. A
+/// notice tells what differs within the tolerances: on one platform that is stale.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  eigenring reproduce --check\n  eigenring reproduce --check --only lambda-tables\n  eigenring reproduce"
