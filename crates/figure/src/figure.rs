@@ -3,112 +3,15 @@
 //! The width of the figure is that of the printed column, so that text has its nominal size on paper. Panels
 //! of a row or column have aligned frames: each gets the largest margins that any of them needs.
 
-use crate::chart::Chart;
 use crate::colour::{Colour, ColourScale};
 use crate::draw::{self, Margins, Page, SMALL, TITLE};
 use crate::error::Error;
 use crate::layout::Layout;
 use crate::legend::{Legend, Side, bar_width, draw_bar};
+use crate::panel::{Content, Panel, Width};
 use crate::scene::Rect;
-use crate::surface::Surface;
 use crate::text::Anchor;
 use std::ops::RangeInclusive;
-
-/// The width of a figure.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Width {
-    /// One column: 85 mm.
-    One,
-    /// Both columns: 178 mm.
-    Two,
-    /// Any other, in millimetres.
-    Millimetres(f64),
-}
-
-impl Width {
-    /// In millimetres.
-    pub fn millimetres(self) -> f64 {
-        match self {
-            Width::One => 85.0,
-            Width::Two => 178.0,
-            Width::Millimetres(width) => width,
-        }
-    }
-}
-
-/// What a panel shows.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Content {
-    /// A chart.
-    Chart(Chart),
-    /// A surface in space.
-    Surface(Surface),
-}
-
-impl From<Chart> for Content {
-    fn from(chart: Chart) -> Self {
-        Content::Chart(chart)
-    }
-}
-
-impl From<Surface> for Content {
-    fn from(surface: Surface) -> Self {
-        Content::Surface(surface)
-    }
-}
-
-/// One part of a figure.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Panel {
-    content: Content,
-    title: String,
-    bar: Option<ColourScale>,
-    legend: Option<Side>,
-}
-
-impl Panel {
-    /// A chart or surface without title.
-    pub fn new(content: impl Into<Content>) -> Self {
-        Panel {
-            content: content.into(),
-            title: String::new(),
-            bar: None,
-            legend: None,
-        }
-    }
-
-    /// With a title; in figures of several panels the letter (a), (b), ..., (z), (aa), ... comes before it.
-    pub fn title(mut self, title: impl Into<String>) -> Self {
-        self.title = title.into();
-        self
-    }
-
-    /// With a colour bar to the right.
-    pub fn colour_bar(mut self, scale: &ColourScale) -> Self {
-        self.bar = Some(scale.clone());
-        self
-    }
-
-    /// With a legend of its labelled layers.
-    pub fn legend(mut self, side: Side) -> Self {
-        self.legend = Some(side);
-        self
-    }
-
-    fn chart(&self) -> Option<&Chart> {
-        match &self.content {
-            Content::Chart(chart) => Some(chart),
-            Content::Surface(_) => None,
-        }
-    }
-
-    fn scales(&self) -> &[(ColourScale, [bool; 2])] {
-        match &self.content {
-            Content::Chart(chart) => &chart.scales,
-            Content::Surface(surface) => &surface.scales,
-        }
-    }
-}
 
 /// Where a panel stands on the grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -4,13 +4,13 @@
 //! from them. The lines on a surface show its form.
 //!
 //! A surface is a list of small quadrilaterals. Seen along the unit vector `d = (cos e cos a, cos e sin a,
-//! sin e)` from the eye's side (azimuth a, elevation e), a point is drawn at its coordinates along `(-sin a,
-//! cos a, 0)` and `d x` that; quadrilaterals are drawn in the order of their centres' depth `p . d`, the
-//! farthest first (Newell, Newell and Sancha 1972), in thin slices: what lies in one is drawn colour by colour,
-//! which makes small files. That is right for the graphs of functions over fine grids, which is what
-//! second-order maps are: where a surface turns away from the eye, two of its parts in one slice overlap by
-//! the square of the slice's thickness only. Larger quadrilaterals that pass through each other are not
-//! resolved.
+//! sin e)` from the eye's side (azimuth a, elevation e), a point is drawn at its coordinates along `(-sin
+//! a, cos a, 0)` and `d x` that; quadrilaterals are drawn in the order of their centres' depth `p . d`,
+//! the farthest first (Newell, Newell and Sancha 1972), in thin slices: what lies in one is drawn colour
+//! by colour, which makes small files. That is right for the graphs of functions over fine grids, which is
+//! what second-order maps are: where a surface turns away from the eye, two of its parts in one slice
+//! overlap by the square of the slice's thickness only. Larger quadrilaterals that pass through each other
+//! are not resolved.
 
 use crate::chart::range_of;
 use crate::colour::{Colour, ColourScale};

@@ -1,10 +1,10 @@
 //! What is proven of the lambda-scheme: valence against lambda.
 //!
-//! A bar for each valence is cut where the status of a requirement changes. Undecided intervals, at kinks of
-//! the relaxation, are often narrower than any line: they are hatched, with an outline, which stays visible,
-//! and the table has their ends. White is where nothing was examined. The statements are those of docs/certificates.md; they come from
-//! `certificates/ranges.csv` of the results. Without that file they are proven on the spot, some seconds a
-//! valence, and of many valences only a few are shown.
+//! A bar for each valence is cut where the status of a requirement changes. Undecided intervals, at kinks
+//! of the relaxation, are often narrower than any line: they are hatched, with an outline, which stays
+//! visible, and the table has their ends. White is where nothing was examined. The statements are those of
+//! docs/certificates.md; they come from `certificates/ranges.csv` of the results. Without that file they
+//! are proven on the spot, some seconds a valence, and of many valences only a few are shown.
 
 use super::ranges::{Interval, stored};
 use super::valences::{Featured, axis};

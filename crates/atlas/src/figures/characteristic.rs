@@ -5,8 +5,8 @@
 //! one to the next, so that it fades or grows toward the centre unless lambda = 1/2. The sheets (see `sheet`)
 //! say how values are scaled. Rows are schemes, columns valences.
 //!
-//! At large valences lambda is large and patches are narrow: annuli crowd at the rim. There radii are drawn by
-//! their logarithms, so that all annuli are equally wide, and a few of them stand for the rest.
+//! At large valences lambda is large and patches are narrow: annuli crowd at the rim. There radii are
+//! drawn by their logarithms, so that all annuli are equally wide, and a few of them stand for the rest.
 
 use super::grid::{Grid, NARROWEST, narrowest};
 use super::sheet::{Point, Sheet, common_inner};

@@ -1,9 +1,9 @@
 //! Featured lambdas against the valence: Ma, Wang and Ma (2023), Fig. 3.
 //!
-//! The paper gives bounds: C1 above `lambda_C1 = 1/8`, the outer rings' eigenvalue, and bounded curvature from
-//! lambda_l on. Shaded is what the stored certificates prove of the splines, valence by valence: bounded
-//! curvature begins a little above lambda_l, where the relaxation ends, and nothing was examined outside the
-//! tabulated lambdas. Without stored certificates nothing is shaded.
+//! The paper gives bounds: C1 above `lambda_C1 = 1/8`, the outer rings' eigenvalue, and bounded curvature
+//! from lambda_l on. Shaded is what the stored certificates prove of the splines, valence by valence:
+//! bounded curvature begins a little above lambda_l, where the relaxation ends, and nothing was examined
+//! outside the tabulated lambdas. Without stored certificates nothing is shaded.
 
 use super::ranges::{Known, known, stored};
 use super::valences::{Featured, axis};

@@ -48,7 +48,7 @@ const WIDE: f64 = 1.3;
 /// About the radius of a surface on the page, in millimetres.
 const RADIUS: f64 = 20.0;
 /// Annuli on which wrong signs are outlined.
-const OUTLINED: usize = 6;
+const OUTLINED: usize = 4;
 /// The lowest figure, in millimetres: the label of the colour bar fits beside it.
 const LOWEST: f64 = 66.0;
 /// Cells of a figure, about: larger files show nothing new at the printed size.

@@ -120,9 +120,9 @@ pub struct Sheet {
     pub tiles: Vec<Tile>,
 }
 
-/// The hole that is left in the middle, relative to the rim: half a millimetre in a panel as wide as a third
-/// of a page. For more than five sectors, whose patches are narrower, it is larger in proportion.
-const HOLE: f64 = 0.02;
+/// The hole that is left in the middle, relative to the rim: a millimetre in a panel as wide as a third of a
+/// page. For more than five sectors, whose patches are narrower, it is larger in proportion.
+const HOLE: f64 = 0.03;
 /// The most annuli: with lambda = 0.9 they leave a hole of 0.06, which is closed by a fan of triangles.
 const MOST: usize = 24;
 

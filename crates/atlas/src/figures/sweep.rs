@@ -188,8 +188,8 @@ pub fn push_curve(table: &mut Table, valence: usize, points: &[Point]) {
     }
 }
 
-/// Adds what is feasible, and the splines, of f2 and f3. Where both are feasible, f3's hatching lies over f2's
-/// colour.
+/// Adds what is feasible, and the splines, of f2 and f3. Where both are feasible, f3's hatching lies over
+/// f2's colour.
 pub fn draw_weights(chart: Chart, points: &[Point]) -> Chart {
     let plain = Fill::Plain(Colour::line(F2).mix(Colour::WHITE, 0.7));
     let hatched = Fill::Hatched(Colour::line(F3).mix(Colour::WHITE, 0.35));

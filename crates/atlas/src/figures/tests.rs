@@ -216,8 +216,8 @@ fn colour_bars_of_tiny_ranges_are_readable() {
 
 #[test]
 fn bounded_curvature_is_shaded_where_it_is_proven() {
-    // the oracle is the picture: the colour of a legend entry is found in the chart, over the lambdas that the
-    // stored certificates give
+    // the oracle is the picture: the colour of a legend entry is found in the chart, over the lambdas that
+    // the stored certificates give
     let entry = find("feasible-region").unwrap();
     let studies = stored();
     let shaded = |studies: &Studies| {
