@@ -76,8 +76,8 @@ fn mean<'a>(points: impl ExactSizeIterator<Item = &'a [f64; 3]>) -> [f64; 3] {
 /// Lines lie on the surface, and are drawn before what is nearer than they by this part of the surface's
 /// extent.
 const BIAS: f64 = 0.02;
-/// Slices of the surface, by depth: as thick as what lines are ahead of it.
-const SLICES: f64 = 50.0;
+/// Slices of the surface, by depth.
+const SLICES: f64 = 40.0;
 
 impl Surface {
     /// An empty surface.

@@ -6,10 +6,10 @@
 //! outside the tabulated lambdas. Without stored certificates nothing is shaded.
 
 use super::ranges::{Known, known, stored};
-use super::valences::{Featured, axis};
+use super::valences::{Featured, LAMBDA_C1, axis};
 use super::{Drawing, Entry, Inputs};
 use crate::error::Error;
-use crate::table::{Cell, Table};
+use crate::table::Table;
 use eigenring_figure::{Axis, Chart, Colour, Dash, Figure, MARKER, Marker, Panel, Side, Stroke, Style, Width};
 use eigenring_tune::study::{LAMBDA_A, LAMBDA_M, LAMBDA_R1, paper_row};
 
@@ -23,9 +23,6 @@ pub const ENTRY: Entry = Entry {
         build,
     )
 };
-
-/// The eigenvalue of the third ring and those beyond, which has to be below lambda.
-const LAMBDA_C1: f64 = 0.125;
 
 /// Valences from which on markers are drawn smaller.
 const CROWDED: usize = 30;
@@ -124,18 +121,11 @@ pub fn chart(inputs: &Inputs<'_>) -> Result<(Chart, Table), Error> {
     let mut crosses = Style::points(Marker::Cross, Colour::INK);
     crosses.marker = Some((Marker::Cross, radius));
     chart = chart.series(printed, crosses).label("printed (2023)");
-    let printed = [
-        "lambda_C1",
-        "paper_lambda_l",
-        "paper_lambda_CC",
-        "paper_lambda_C",
-        "paper_lambda_r2",
-    ];
+    let printed = ["paper_lambda_l", "paper_lambda_CC", "paper_lambda_C", "paper_lambda_r2"];
     let table = Featured::table(&rows, &printed, |row| {
         let paper = paper_row(row.valence);
         let values = paper.map(|paper| [paper.lambda_l, paper.lambda_cc, paper.lambda_c_star, paper.lambda_r2]);
-        let values = (0..4).map(|i| Cell::from(values.map(|values| values[i])));
-        std::iter::once(LAMBDA_C1.into()).chain(values).collect()
+        (0..4).map(|i| values.map(|values| values[i]).into()).collect()
     });
     Ok((chart, table))
 }

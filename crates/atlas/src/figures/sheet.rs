@@ -122,7 +122,7 @@ pub struct Sheet {
 
 /// The hole that is left in the middle, relative to the rim: a millimetre in a panel as wide as a third of a
 /// page. For more than five sectors, whose patches are narrower, it is larger in proportion.
-const HOLE: f64 = 0.03;
+const HOLE: f64 = 0.035;
 /// The most annuli: with lambda = 0.9 they leave a hole of 0.06, which is closed by a fan of triangles.
 const MOST: usize = 24;
 

@@ -21,6 +21,9 @@ pub fn axis(valences: &[usize]) -> Axis {
 /// How far the axis goes on beyond the first and the last valence.
 const BESIDE: f64 = 0.7;
 
+/// The eigenvalue of the third ring and those beyond, which lambda has to exceed.
+pub const LAMBDA_C1: f64 = 0.125;
+
 /// The featured lambdas of one valence; those that are tuned exist for tabulated valences only.
 #[derive(Clone, Copy, Debug)]
 pub struct Featured {
@@ -47,11 +50,10 @@ impl Featured {
         valences.iter().map(row).collect()
     }
 
-    /// A table of them with further columns.
+    /// A table of them, after the paper's bound of C1, with further columns.
     pub fn table(rows: &[Self], further: &[&str], cells: impl Fn(&Self) -> Vec<Cell>) -> Table {
-        let columns = std::iter::once("valence")
-            .chain(FEATURED)
-            .chain(further.iter().copied());
+        let columns = ["valence", "lambda_C1"].into_iter().chain(FEATURED);
+        let columns = columns.chain(further.iter().copied());
         let mut table = Table::new(columns);
         for row in rows {
             let values = [
@@ -63,7 +65,9 @@ impl Featured {
                 row.lambda_c,
                 row.lambda_r2,
             ];
-            let own = std::iter::once(row.valence.into()).chain(values.map(Cell::from));
+            let own = [row.valence.into(), LAMBDA_C1.into()]
+                .into_iter()
+                .chain(values.map(Cell::from));
             table.push(own.chain(cells(row)).collect());
         }
         table
