@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::progress::each;
 use crate::schemes::{SchemeName, Tuner};
 use crate::spectrum::Analysis;
-use crate::table::Table;
+use crate::table::{Format, Table, WIDTH};
 use eigenring_scheme::Scheme;
 use eigenring_spectral::outer;
 use eigenring_tune::quality::Quality;
@@ -141,6 +141,35 @@ pub fn compare(schemes: &[SchemeName], valences: &[usize], tuner: &Tuner<'_>) ->
     each(tuner.progress, "schemes", &found, |scheme| {
         Row::new(scheme.name(), scheme)
     })
+}
+
+/// What the columns mean.
+const LEGEND: &str = "\
+lambda       modulus of the subdominant eigenvalue
+mu/lambda^2  1 for bounded curvature without a flat spot
+K_m, E       reach of the Gauss curvatures to the wrong side of zero; the unweighted objective
+theta        angle at F between V and E in the natural configuration, in degrees
+gap, strict  1 - |mu|/lambda; how far all further eigenvalues are below those of the quadratic terms
+hull         the smallest weight that is not zero
+";
+
+/// The rows for people: a heading for each valence, a row for each scheme, and what the columns mean. Unless
+/// it is `wide`, lines have at most [`WIDTH`] characters.
+pub fn text(rows: &[Row], wide: bool) -> String {
+    let mut text = String::new();
+    for rows in rows.chunk_by(|a, b| a.valence == b.valence) {
+        let mut table = table(rows.to_vec()).without("valence");
+        if rows.iter().all(|row| row.remark.is_empty()) {
+            table = table.without("remark");
+        }
+        let table = if wide {
+            table.render(Format::Text)
+        } else {
+            table.fitted(WIDTH)
+        };
+        text.push_str(&format!("N = {}\n{table}\n", rows[0].valence));
+    }
+    text + LEGEND
 }
 
 /// The rows as a table.

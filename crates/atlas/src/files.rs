@@ -86,18 +86,32 @@ const MAX_BYTES: u64 = 1 << 26;
 /// # Errors
 /// [`Error::Read`], also for what is no text; [`Error::InFile`] for a longer file.
 pub fn read(path: &Path) -> Result<String, Error> {
+    String::from_utf8(read_bytes(path)?).map_err(|_| Error::Read {
+        path: path.to_owned(),
+        source: std::io::Error::new(std::io::ErrorKind::InvalidData, "stream did not contain valid UTF-8"),
+    })
+}
+
+/// What a file of at most 64 MB holds; `-` is standard input.
+///
+/// # Errors
+/// [`Error::Read`]; [`Error::InFile`] for a longer file.
+pub fn read_bytes(path: &Path) -> Result<Vec<u8>, Error> {
     let failed = |source| Error::Read {
         path: path.to_owned(),
         source,
     };
-    let file = std::fs::File::open(path).map_err(failed)?;
-    let mut text = String::new();
-    file.take(MAX_BYTES + 1).read_to_string(&mut text).map_err(failed)?;
-    if text.len() as u64 > MAX_BYTES {
+    let input: Box<dyn Read> = match path == Path::new("-") {
+        true => Box::new(std::io::stdin()),
+        false => Box::new(std::fs::File::open(path).map_err(failed)?),
+    };
+    let mut bytes = Vec::new();
+    input.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > MAX_BYTES {
         let accepted = Accepted::Are("files up to that size".to_owned());
         return Err(Error::refused(format!("it is longer than {MAX_BYTES} bytes"), accepted).in_file(path));
     }
-    Ok(text)
+    Ok(bytes)
 }
 
 /// The size in bytes of a file that must be there and not be empty.

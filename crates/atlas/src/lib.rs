@@ -28,6 +28,7 @@
 //! |---|---|
 //! | [`schemes`] | a scheme from a name: `catmull-clark`, `lambda:optimal`, `file:my.toml`; the [`schemes::Tuner`] for what is not tabulated |
 //! | [`spectrum`], [`matrix`] | eigenvalues and limit stencils; the local matrix in the formats of other programs |
+//! | [`given`], [`numbers`] | a matrix that somebody has, whatever its order and rotation; reading tables of numbers |
 //! | [`compare`] | schemes side by side over valences |
 //! | [`stencil`], [`tune`] | one member of the lambda-scheme; the best one |
 //! | [`certificates`], [`report`] | what is certified, checked again, summed up and printed |
@@ -56,10 +57,12 @@ pub mod difference;
 mod error;
 pub mod figures;
 pub mod files;
+pub mod given;
 pub mod index;
 pub mod limits;
 pub mod matrix;
 pub mod meshes;
+pub mod numbers;
 pub mod progress;
 pub mod render;
 pub mod report;

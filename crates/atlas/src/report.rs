@@ -1,7 +1,7 @@
 //! Certificates for people and programs.
 
 use crate::certificates::Confirmation;
-use crate::table::{Format, Table, pretty, short};
+use crate::table::{Format, Table, WIDTH, pretty, short};
 use eigenring_certify::range::{RangeCertificate, Segment};
 use eigenring_certify::{Certificate, Check, Interval, Requirement, Statement, Status};
 use serde_json::{Value, json};
@@ -110,7 +110,7 @@ fn certificate_text(certificate: &Certificate, requirement: Requirement) -> Stri
     let degree = degree.map_or(String::new(), |degree| format!(", regular surface of degree {degree}"));
     format!(
         "{scheme}, N = {valence}{corner}{degree}\n\n{}\n{} is {status}\n",
-        certificate_table(certificate).render(Format::Text),
+        certificate_table(certificate).fitted(WIDTH),
         requirement.name()
     )
 }
@@ -201,7 +201,7 @@ fn range_text(certificate: &RangeCertificate, requirement: Requirement) -> Strin
         certificate.valence,
         short(start),
         short(end),
-        range_table(certificate, requirement).render(Format::Text),
+        range_table(certificate, requirement).fitted(WIDTH),
         requirement.name(),
         whole(&certificate.required(requirement)).0,
     )

@@ -1,7 +1,7 @@
 //! Eigenvalues, Fourier indices and limit stencils of a scheme's local matrix, or of a matrix that somebody
 //! has.
 
-use crate::error::{Accepted, Error};
+use crate::error::Error;
 use crate::table::{Format, Record, Table, short};
 use eigenring_scheme::{Corner, Lattice, Scheme, Site};
 use eigenring_spectral::{Eigenvalue, LocalSystem, Matrix, Spectrum, Sufficient, outer};
@@ -203,6 +203,24 @@ impl Analysis {
         Some(texts.join("+"))
     }
 
+    /// The limit stencils, as weights of all points; empty where one is not defined.
+    pub fn limit_stencils(&self) -> Table {
+        let Limits { position, tangents, .. } = Limits::new(self);
+        let mut table = Table::new(["point", "sector", "a", "b", "position", "tangent_x", "tangent_y"]);
+        for (index, site) in self.system.numbering().sites().iter().enumerate() {
+            table.push(vec![
+                index.into(),
+                site.sector.into(),
+                (site.x as usize / 2).into(),
+                (site.y as usize / 2).into(),
+                position.as_ref().ok().map(|p| p[index]).into(),
+                tangents.as_ref().ok().map(|t| t[0][index]).into(),
+                tangents.as_ref().ok().map(|t| t[1][index]).into(),
+            ]);
+        }
+        table
+    }
+
     /// Everything as a JSON object.
     pub fn json(&self) -> Map<String, Value> {
         let mut object = self.head().json();
@@ -311,43 +329,4 @@ impl Limits {
         }
         text
     }
-}
-
-/// Reads a matrix from CSV without header. That it is square is for [`Analysis::of_matrix`] to demand.
-///
-/// # Errors
-/// [`Error::Content`] with row and column, counted from 1.
-pub fn parse_matrix(text: &str) -> Result<Matrix<f64>, Error> {
-    let mut reader = csv::ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .trim(csv::Trim::All)
-        .from_reader(text.as_bytes());
-    let mut rows: Vec<Vec<f64>> = Vec::new();
-    for (index, record) in reader.records().enumerate() {
-        let record = record.map_err(|error| Error::content(error.to_string()))?;
-        let number = |(column, entry): (usize, &str)| match entry.parse::<f64>() {
-            Ok(number) if number.is_finite() => Ok(number),
-            _ => Err(Error::refused(
-                format!("row {}, column {}: '{entry}' is no number", index + 1, column + 1),
-                Accepted::Are("finite ones".to_owned()),
-            )),
-        };
-        let row = record
-            .iter()
-            .enumerate()
-            .map(number)
-            .collect::<Result<Vec<f64>, Error>>()?;
-        if let Some(first) = rows.first()
-            && row.len() != first.len()
-        {
-            return Err(Error::refused(
-                format!("row {} has {} entries, row 1 has {}", index + 1, row.len(), first.len()),
-                Accepted::Are("rows of equal length".to_owned()),
-            ));
-        }
-        rows.push(row);
-    }
-    let columns = rows.first().map_or(0, Vec::len);
-    Ok(Matrix::from_rows(rows, columns))
 }

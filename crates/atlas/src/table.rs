@@ -1,6 +1,12 @@
 //! Tables of numbers and words, in the formats that people and programs read.
 
+mod latex;
+mod text;
+
 use serde_json::Value;
+
+/// The width of a text for people.
+pub const WIDTH: usize = 100;
 
 /// How a table is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -61,16 +67,25 @@ impl<T: Into<Cell>> From<Option<T>> for Cell {
 
 /// Ten significant digits without trailing zeros; exponents only where they are shorter.
 pub fn short(number: f64) -> String {
+    rounded(number, 10)
+}
+
+/// So many significant digits without trailing zeros.
+fn rounded(number: f64, digits: usize) -> String {
     if number == 0.0 || !number.is_finite() {
         return format!("{}", number + 0.0);
     }
     let exponent = number.abs().log10().floor() as i32;
     if !(-5..10).contains(&exponent) {
-        let text = format!("{number:.9e}");
+        let text = format!("{number:.*e}", digits - 1);
         let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-        return format!("{}e{exponent}", mantissa.trim_end_matches('0').trim_end_matches('.'));
+        let mantissa = match mantissa.contains('.') {
+            true => mantissa.trim_end_matches('0').trim_end_matches('.'),
+            false => mantissa,
+        };
+        return format!("{mantissa}e{exponent}");
     }
-    let text = format!("{number:.*}", (9 - exponent).max(0) as usize);
+    let text = format!("{number:.*}", (digits as i32 - 1 - exponent).max(0) as usize);
     match text.contains('.') {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
         false => text,
@@ -136,6 +151,14 @@ impl Table {
         self
     }
 
+    /// Adds a column, whose cells are functions of the row's index.
+    pub fn extend(&mut self, column: &str, cell: impl Fn(usize) -> Cell) {
+        self.columns.push(column.to_owned());
+        for (index, row) in self.rows.iter_mut().enumerate() {
+            row.push(cell(index));
+        }
+    }
+
     /// Adds the rows of a table with the same columns.
     pub fn append(&mut self, other: Table) {
         debug_assert_eq!(self.columns, other.columns, "rows have one cell for each column");
@@ -145,11 +168,26 @@ impl Table {
     /// The table in a format; JSON as a list of objects.
     pub fn render(&self, format: Format) -> String {
         match format {
-            Format::Text => self.text(),
+            Format::Text => text::whole(self),
             Format::Json => pretty(&self.json()),
             Format::Csv => self.csv(),
-            Format::Latex => self.latex(),
+            Format::Latex => latex::render(self),
         }
+    }
+
+    /// The table for people, in lines of at most `width` characters: numbers get fewer digits, words of a
+    /// last column go below their rows, and last columns are left out where that is not enough.
+    pub fn fitted(&self, width: usize) -> String {
+        text::fitted(self, width)
+    }
+
+    /// The table without a column.
+    pub fn without(mut self, column: &str) -> Self {
+        if let Some(index) = self.columns.iter().position(|name| name == column) {
+            self.columns.remove(index);
+            self.rows.iter_mut().for_each(|row| drop(row.remove(index)));
+        }
+        self
     }
 
     /// The rows as objects.
@@ -167,40 +205,6 @@ impl Table {
         self.rows.iter().any(word) && self.rows.iter().all(|row| word(row) || row[column] == Cell::Empty)
     }
 
-    fn text(&self) -> String {
-        let cells: Vec<Vec<String>> = self
-            .rows
-            .iter()
-            .map(|row| row.iter().map(Cell::for_people).collect())
-            .collect();
-        let width = |column: usize| {
-            let longest = cells.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
-            longest.max(self.columns[column].chars().count())
-        };
-        let widths: Vec<usize> = (0..self.columns.len()).map(width).collect();
-        let left: Vec<bool> = (0..self.columns.len()).map(|column| self.is_words(column)).collect();
-        let line = |cells: &[String]| {
-            let padded: Vec<String> = cells
-                .iter()
-                .zip(&widths)
-                .zip(&left)
-                .map(|((cell, &width), &left)| {
-                    if left {
-                        format!("{cell:<width$}")
-                    } else {
-                        format!("{cell:>width$}")
-                    }
-                })
-                .collect();
-            format!("{}\n", padded.join("  ").trim_end())
-        };
-        let mut text = line(&self.columns);
-        for row in &cells {
-            text.push_str(&line(row));
-        }
-        text
-    }
-
     fn csv(&self) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let mut records = vec![self.columns.clone()];
@@ -212,35 +216,6 @@ impl Table {
         }
         let bytes = writer.into_inner().expect("memory does not fail");
         String::from_utf8(bytes).expect("text in gives text out")
-    }
-
-    fn latex(&self) -> String {
-        let escape = |text: &str| -> String {
-            let character = |character: char| match character {
-                '\\' => "\\textbackslash{}".to_owned(),
-                '^' => "\\textasciicircum{}".to_owned(),
-                '~' => "\\textasciitilde{}".to_owned(),
-                '_' | '%' | '&' | '#' | '$' | '{' | '}' => format!("\\{character}"),
-                other => other.to_string(),
-            };
-            text.chars().map(character).collect()
-        };
-        let alignment: String = (0..self.columns.len())
-            .map(|column| if self.is_words(column) { 'l' } else { 'r' })
-            .collect();
-        let mut text = format!("\\begin{{tabular}}{{{alignment}}}\n\\hline\n");
-        let mut line = |cells: Vec<String>| {
-            text.push_str(&cells.join(" & "));
-            text.push_str(" \\\\\n");
-        };
-        line(self.columns.iter().map(|column| escape(column)).collect());
-        line(vec!["\\hline".to_owned()]);
-        for row in &self.rows {
-            line(row.iter().map(|cell| escape(&cell.for_people())).collect());
-        }
-        text = text.replace("\\hline \\\\\n", "\\hline\n");
-        text.push_str("\\hline\n\\end{tabular}\n");
-        text
     }
 }
 
@@ -327,12 +302,7 @@ mod tests {
         );
         assert_eq!(
             table().render(Format::Latex),
-            "\\begin{tabular}{lr}\n\\hline\nname & x\\_1 \\\\\n\\hline\na,b & 0.3333333333 \\\\\nc & - \\\\\n\\hline\n\\end{tabular}\n"
-        );
-        assert!(
-            Table::new(["mu/lambda^2"])
-                .render(Format::Latex)
-                .contains("lambda\\textasciicircum{}2")
+            "\\begin{tabular}{lr}\n\\hline\nname & x 1 \\\\\n\\hline\na,b & 0.3333333333 \\\\\nc & -- \\\\\n\\hline\n\\end{tabular}\n"
         );
         for (number, text) in [
             (0.0, "0"),
@@ -349,5 +319,73 @@ mod tests {
         ] {
             assert_eq!(short(number), text);
         }
+    }
+
+    #[test]
+    fn mathematics_in_latex() {
+        let mut table = Table::new(["mu/lambda^2", "K_m", "f2", "xi12", "a_b"]);
+        table.push(vec![
+            (-0.5).into(),
+            1.5e-7.into(),
+            0.25.into(),
+            1.0.into(),
+            "x_y".into(),
+        ]);
+        let latex = table.render(Format::Latex);
+        assert!(
+            latex.contains("$\\mu/\\lambda^2$ & $K_m$ & $f_2$ & $\\xi_{12}$ & a b \\\\"),
+            "{latex}"
+        );
+        assert!(
+            latex.contains("$-0.5$ & $1.5 \\times 10^{-7}$ & 0.25 & 1 & x\\_y \\\\"),
+            "{latex}"
+        );
+    }
+
+    #[test]
+    fn wide_tables_are_split_for_pages_and_narrowed_for_people() {
+        let columns: Vec<String> = ["valence".to_owned()]
+            .into_iter()
+            .chain((1..=17).map(|i| format!("C{i}")))
+            .collect();
+        let mut wide = Table::new(columns);
+        wide.push(
+            std::iter::once(5.into())
+                .chain((0..17).map(|i| (1.0 / f64::from(i + 3)).into()))
+                .collect(),
+        );
+        let latex = wide.render(Format::Latex);
+        assert!(
+            latex.matches("\\begin{tabular}").count() >= 3 && latex.matches("$N$").count() >= 3,
+            "{latex}"
+        );
+        // without the words of LaTeX no line is wider than a page
+        assert!(
+            latex
+                .lines()
+                .filter(|line| line.contains('&'))
+                .all(|line| line.len() < 130),
+            "{latex}"
+        );
+        assert_eq!(latex.matches("0.3333333333").count(), 1);
+        let text = wide.fitted(WIDTH);
+        assert!(text.lines().all(|line| line.chars().count() <= WIDTH), "{text}");
+        assert!(
+            text.contains("left out for want of room: C") && text.contains("--wide"),
+            "{text}"
+        );
+        let mut remarks = Table::new(["check", "x", "remark"]);
+        let remark = "words ".repeat(30);
+        remarks.push(vec!["a".into(), (1.0 / 3.0).into(), remark.trim().into()]);
+        remarks.push(vec!["b".into(), 2.0.into(), "".into()]);
+        let text = remarks.fitted(WIDTH);
+        assert!(
+            text.starts_with("check             x\na      0.3333333333\n    words words"),
+            "{text}"
+        );
+        assert!(
+            text.ends_with("\nb                 2\n") && text.matches("words").count() == 30,
+            "{text}"
+        );
     }
 }

@@ -5,7 +5,7 @@
 
 use crate::error::Error;
 use crate::progress::{note, say};
-pub use eigenring_atlas::files::{below, read, size};
+pub use eigenring_atlas::files::{below, read, read_bytes, size};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 

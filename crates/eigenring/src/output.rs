@@ -25,6 +25,29 @@ pub struct Output {
     out: Option<PathBuf>,
 }
 
+/// How wide a text is.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct Wide {
+    /// With text: all columns and digits, in lines that may be longer than 100 characters
+    #[arg(long)]
+    wide: bool,
+}
+
+impl Wide {
+    /// Whether it was asked for, of a text.
+    ///
+    /// # Errors
+    /// Another format, which has all columns anyway.
+    pub fn of(self, format: Format) -> Result<bool, Error> {
+        match (self.wide, format) {
+            (true, Format::Json | Format::Csv | Format::Latex) => {
+                Err(Error::usage("--wide has no meaning for this format", "--format text"))
+            }
+            (wide, _) => Ok(wide),
+        }
+    }
+}
+
 /// See [`Format`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum FormatArg {

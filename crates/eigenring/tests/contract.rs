@@ -305,7 +305,9 @@ fn tables_come_out_in_every_format() {
             latex.starts_with("\\begin{tabular}{") && latex.ends_with("\\end{tabular}\n"),
             "{latex}"
         );
-        assert_eq!(latex.matches(" \\\\\n").count(), rows + 1, "{latex}");
+        // tables that are wider than a page are split
+        let parts = latex.matches("\\begin{tabular}").count();
+        assert_eq!(latex.matches(" \\\\\n").count(), parts * (rows + 1), "{latex}");
         let text = run("text");
         assert!(
             text.lines().count() > 1 && text.lines().all(|l| l == l.trim_end()),

@@ -2,11 +2,12 @@
 
 use crate::args::{Schemes, tuner};
 use crate::error::Error;
-use crate::output::Output;
+use crate::output::{Output, Wide};
 use crate::threads::Threads;
 use crate::valences::{self, Valences};
 use clap::Args;
-use eigenring_atlas::compare::{compare, table};
+use eigenring_atlas::compare::{compare, table, text};
+use eigenring_atlas::table::Format;
 use std::process::ExitCode;
 
 /// Compare schemes over valences.
@@ -39,12 +40,15 @@ pub struct Arguments {
     #[command(flatten)]
     threads: Threads,
     #[command(flatten)]
+    wide: Wide,
+    #[command(flatten)]
     output: Output,
 }
 
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         let format = self.output.format()?;
+        let wide = self.wide.of(format)?;
         self.threads.start()?;
         if !self.schemes.given() {
             return Err(Error::usage(
@@ -53,7 +57,11 @@ impl Arguments {
             ));
         }
         let rows = compare(&self.schemes.all(), self.valences.closed()?, &tuner())?;
-        self.output.emit(&table(rows).render(format))?;
+        let printed = match format {
+            Format::Text => text(&rows, wide),
+            _ => table(rows).render(format),
+        };
+        self.output.emit(&printed)?;
         Ok(ExitCode::SUCCESS)
     }
 }

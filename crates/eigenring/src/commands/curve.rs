@@ -19,7 +19,8 @@ use std::process::ExitCode;
 
 /// Refine the control points of a curve of any order with tension, and draw it.
 ///
-/// POINTS is a CSV file: a point a line, one coordinate or more, with or without a header. The refined points
+/// POINTS is a table of numbers: a point a line, one coordinate or more, with or without a header, in any of
+/// the formats that 'eigenring spectrum --matrix' reads; - is standard input. The refined points
 /// of the last level go to standard output, or with -o into a file; columns are level, parameter, and x, y, z
 /// (x1, x2, ... beyond three). An open curve belongs to the middle of its polygon: it does not reach the
 /// first and the last control point.
@@ -219,7 +220,7 @@ impl Arguments {
                 return Err(Error::usage("no points are given", "a file of points, or --example"));
             }
         };
-        let points = parse(&files::read(path)?).map_err(|error| error.in_file(path))?;
+        let points = parse(&files::read_bytes(path)?).map_err(|error| error.in_file(path))?;
         let ends = if self.closed { Ends::Closed } else { Ends::Open };
         if self.closed && points.len() > 1 && points.first() == points.last() {
             note("the last point is the first again, which a closed polygon has twice then");

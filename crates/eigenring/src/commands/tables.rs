@@ -5,14 +5,14 @@ use crate::args::TuningArgs;
 use crate::checkpoint::Checkpoints;
 use crate::error::Error;
 use crate::files::{self, Written};
-use crate::output::FormatOption;
+use crate::output::{FormatOption, Wide};
 use crate::progress::{Terminal, say};
 use crate::threads::Threads;
 use crate::valences::{self, Valences};
 use clap::{Args, ValueEnum};
 use eigenring_atlas::results::{self, FOLDER, Results, summary};
 use eigenring_atlas::run::{Parameters, check, studies};
-use eigenring_atlas::table::{Format, Table};
+use eigenring_atlas::table::{Format, Table, WIDTH};
 use eigenring_atlas::tension;
 use eigenring_tune::study::Knots;
 use eigenring_tune::sweep::{Options, Range};
@@ -61,6 +61,8 @@ pub struct Arguments {
     threads: Threads,
     #[command(flatten)]
     tuning: TuningArgs,
+    #[command(flatten)]
+    wide: Wide,
     #[command(flatten)]
     format: FormatOption,
 }
@@ -114,6 +116,7 @@ impl Arguments {
         let default = if stored { RESULTS } else { UNSTORED };
         let out = self.out.clone().unwrap_or_else(|| default.into());
         let format = self.format.format();
+        let wide = self.wide.of(format)?;
         if self.scheme == Tabulated::Tension {
             if parameters != usual || self.embed.is_some() {
                 return Err(Error::usage(
@@ -122,7 +125,7 @@ impl Arguments {
                 ));
             }
             self.threads.start()?;
-            return eigenvalue_tables(tension::Parameters::new(parameters.valences), &out, format);
+            return eigenvalue_tables(tension::Parameters::new(parameters.valences), &out, format, wide);
         }
         let embed = match &self.embed {
             Some(None) if !stored => {
@@ -139,13 +142,17 @@ impl Arguments {
             written.write(path, table.to_json()?.as_bytes())?;
         }
         let words = results::in_words(&results.valences);
-        finish(&summary(&results.valences), &words, &written, format)
+        finish(&summary(&results.valences), &words, &written, format, wide)
     }
 }
 
 /// Prints a table; what it says in words and the files go to standard error.
-fn finish(table: &Table, words: &str, written: &Written, format: Format) -> Result<ExitCode, Error> {
-    files::emit(None, table.render(format).as_bytes())?;
+fn finish(table: &Table, words: &str, written: &Written, format: Format, wide: bool) -> Result<ExitCode, Error> {
+    let text = match format {
+        Format::Text if !wide => table.fitted(WIDTH),
+        _ => table.render(format),
+    };
+    files::emit(None, text.as_bytes())?;
     if format == Format::Text {
         say(words);
     }
@@ -174,7 +181,12 @@ fn regenerate(parameters: &Parameters, out: &Path, format: Format) -> Result<(Re
 }
 
 /// Computes and writes the tables of the tension scheme.
-fn eigenvalue_tables(parameters: tension::Parameters, out: &Path, format: Format) -> Result<ExitCode, Error> {
+fn eigenvalue_tables(
+    parameters: tension::Parameters,
+    out: &Path,
+    format: Format,
+    wide: bool,
+) -> Result<ExitCode, Error> {
     let folder = out.join(tension::FOLDER);
     files::check_writable(out, &folder)?;
     let results = tension::Results::new(parameters, &Terminal)?;
@@ -183,7 +195,7 @@ fn eigenvalue_tables(parameters: tension::Parameters, out: &Path, format: Format
         all.extend(results.latex());
     }
     let written = write_all(&folder, all)?;
-    finish(&results.smallest_gaps(), &results.in_words(), &written, format)
+    finish(&results.smallest_gaps(), &results.in_words(), &written, format, wide)
 }
 
 fn write_all(folder: &Path, files: Vec<(String, String)>) -> Result<Written, Error> {
