@@ -30,6 +30,13 @@ pub(crate) struct Step {
     pub tables: Vec<Table<f64>>,
     /// For each face the half-edge from whose corner it was cut.
     pub halves: Vec<u32>,
+    /// Of dual schemes the points, one for each face; their rows are those of the tables.
+    pub values: Option<Vec<Point3<f64>>>,
+}
+
+/// The quads of a mesh: of each face one for each corner, with points that are not set.
+pub(crate) fn quads(mesh: &Mesh, topology: &Topology) -> Mesh {
+    Split::new(mesh, topology).mesh
 }
 
 /// Adds `weight` times a row to another.
@@ -57,7 +64,7 @@ pub(crate) fn step(mesh: &Mesh, topology: &Topology, rules: &Rules, level: usize
     };
     let rows = match method {
         Method::Bicubic if quads => vec![context.bicubic(&split)?],
-        Method::Bicubic => vec![context.polygons(&split)?],
+        Method::Bicubic => context.polygons(&split)?,
         Method::Even { order, .. } => {
             let fine = Topology::unchecked(&split.mesh);
             let carried = Active::new(&fine, &split.mesh.features, ends, rules.steps);
@@ -151,6 +158,7 @@ impl Split {
                 mesh: self.mesh,
                 tables,
                 halves: (0..all).collect(),
+                values: None,
             });
         }
         let kept = |face: &u32| self.mesh.face(*face as usize).iter().all(|&v| !missing[v as usize]);
@@ -160,7 +168,12 @@ impl Split {
             .flat_map(|&face| self.mesh.face(face as usize).iter().copied());
         let mut mesh = Mesh::of_quads(self.mesh.points().to_vec(), corners.collect());
         mesh.features = self.mesh.features.clone();
-        Ok(Step { mesh, tables, halves })
+        Ok(Step {
+            mesh,
+            tables,
+            halves,
+            values: None,
+        })
     }
 }
 
@@ -211,7 +224,7 @@ impl Context<'_> {
         vertex: u32,
         pass: usize,
         step: usize,
-        faces: impl Fn(u32) -> Row,
+        faces: impl Fn(u32) -> u32,
         own: impl Fn(usize) -> Option<[f64; 3]>,
     ) -> Result<Option<Row>, Error> {
         let fan = self.topology.fan(vertex);
@@ -241,26 +254,7 @@ impl Context<'_> {
                     };
                     let mut row = vec![(vertex, own)];
                     row.extend(fan.spokes.iter().map(|&spoke| (self.topology.head(spoke), edges)));
-                    let mut sums = std::collections::BTreeMap::new();
-                    let mut plain_faces = true;
-                    for &spoke in &fan.spokes {
-                        let read = faces(spoke);
-                        plain_faces &= read.len() == 1;
-                        if plain_faces {
-                            row.push((read[0].0, middles));
-                        } else {
-                            for (at, w) in read {
-                                *sums.entry(at).or_insert(0.0) += middles * w;
-                            }
-                        }
-                    }
-                    // edges of a face are its corners too
-                    for entry in &mut row {
-                        if let Some(more) = sums.remove(&entry.0) {
-                            entry.1 += more;
-                        }
-                    }
-                    row.extend(sums);
+                    row.extend(fan.spokes.iter().map(|&spoke| (faces(spoke), middles)));
                     Ok(Some(row))
                 }
             }
@@ -279,8 +273,8 @@ impl Context<'_> {
         })
     }
 
-    fn opposite(&self, spoke: u32) -> Row {
-        vec![(self.topology.head(self.topology.next(spoke)), 1.0)]
+    fn opposite(&self, spoke: u32) -> u32 {
+        self.topology.head(self.topology.next(spoke))
     }
 
     fn centroid(&self, face: u32) -> Row {
@@ -384,29 +378,31 @@ impl Context<'_> {
     }
 
     /// The rows of Catmull-Clark beside faces of any size.
-    fn polygons(&self, split: &Split) -> Result<Vec<Option<Row>>, Error> {
+    fn polygons(&self, split: &Split) -> Result<Vec<Vec<Option<Row>>>, Error> {
         let topology = self.topology;
+        // the middles of faces first, which edges and vertices read: rows stay short beside large faces
+        let vertices = (0..split.vertices).map(|vertex| Some(vec![(vertex, 1.0)]));
+        let middles = (0..topology.face_count() as u32).map(|face| Some(self.centroid(face)));
+        let first = vertices.chain(middles).collect();
+        let middle = |face: u32| split.vertices + face;
         let mut rows = Vec::with_capacity(split.mesh.points().len());
         for vertex in 0..split.vertices {
-            let middle = |spoke| self.centroid(topology.face(spoke));
             let mask = |n: usize| {
                 let square = 1.0 / (n * n) as f64;
                 Some([1.0 - 2.0 / n as f64, square, square])
             };
-            rows.push(self.vertex(vertex, 0, 0, middle, mask)?);
+            rows.push(self.vertex(vertex, 0, 0, |spoke| middle(topology.face(spoke)), mask)?);
         }
         for number in 0..split.edges {
             rows.push(self.edge(number, |half| {
                 let [a, b] = topology.ends(half);
-                let mut row = vec![(a, 0.25), (b, 0.25)];
-                for half in [Some(half), topology.twin(half)].into_iter().flatten() {
-                    add(&mut row, 0.25, &self.centroid(topology.face(half)));
-                }
-                row
+                let sides = [Some(half), topology.twin(half)].into_iter().flatten();
+                let faces = sides.map(|half| (middle(topology.face(half)), 0.25));
+                [(a, 0.25), (b, 0.25)].into_iter().chain(faces).collect()
             }));
         }
-        rows.extend((0..topology.face_count() as u32).map(|face| Some(self.centroid(face))));
-        Ok(rows)
+        rows.extend((0..topology.face_count() as u32).map(|face| Some(vec![(middle(face), 1.0)])));
+        Ok(vec![first, rows])
     }
 
     /// Linear refinement.

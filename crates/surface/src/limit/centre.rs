@@ -2,9 +2,9 @@
 
 use super::local::{Local, Reach};
 use super::patch::{Jet3, control, jet};
+use crate::Error;
 use crate::refine::{Row, Step, add};
 use crate::rules::Rules;
-use crate::{Error, Topology};
 use eigenring_spectral::{Block, Matrix};
 use nalgebra::{Point3, Vector3};
 use std::collections::HashMap;
@@ -136,15 +136,15 @@ pub(crate) fn missing() -> Error {
 impl Centre {
     /// The centre at the first corner of a part, of which `child` is the refined image.
     pub fn new(local: &Local, refined: &Step, child: &Local, rules: &Rules, reach: Reach) -> Result<Self, Error> {
-        let matrix: Vec<Row> = child.ids.iter().map(|&id| composed(refined, id)).collect();
+        let matrix: Vec<Row> = child.unknowns().iter().map(|&id| composed(refined, id)).collect();
         let mut quarters = Vec::with_capacity(3);
         for corner in 1..4 {
             let quarter = local.child(refined, corner, reach).ok_or_else(missing)?;
-            let rows: Vec<Row> = quarter.ids.iter().map(|&id| composed(refined, id)).collect();
+            let rows: Vec<Row> = quarter.unknowns().iter().map(|&id| composed(refined, id)).collect();
             quarters.push(annulus(&quarter, &rows, rules, reach, 2)?);
         }
         Ok(Centre {
-            pair: pair(&matrix, &local.topology)?,
+            pair: pair(&matrix, local)?,
             limit: limit(&matrix),
             matrix,
             annulus: quarters.try_into().map_err(|_| missing())?,
@@ -225,7 +225,7 @@ fn limit(matrix: &[Row]) -> Vec<f64> {
     weights.iter().map(|w| w / sum).collect()
 }
 
-fn pair(matrix: &[Row], topology: &Topology) -> Result<Result<Pair, Undefined>, Error> {
+fn pair(matrix: &[Row], local: &Local) -> Result<Result<Pair, Undefined>, Error> {
     if matrix.len() > MOST {
         return Ok(Err(Undefined::TooLarge));
     }
@@ -273,14 +273,22 @@ fn pair(matrix: &[Row], topology: &Topology) -> Result<Result<Pair, Undefined>, 
         |a: f64, b: f64| -> Vec<f64> { l0.iter().zip(l1).map(|(x, y)| (a * x + b * y) / determinant).collect() };
     let mut left = [mixed(gram[1][1], -gram[0][1]), mixed(-gram[1][0], gram[0][0])];
     let mut right: Vec<[f64; 2]> = r0.iter().zip(r1).map(|(&x, &y)| [x, y]).collect();
-    // the ends of the spokes must run round the centre once
+    // the ends of the spokes, or the faces between them, must run round the centre once
+    let topology = &local.topology;
     let fan = topology.fan(topology.origin(0));
-    let heads = fan.spokes.iter().map(|&spoke| topology.head(spoke));
-    let mut ends: Vec<u32> = heads.chain(fan.last.map(|last| topology.origin(last))).collect();
+    let (mut ends, centre): (Vec<u32>, [f64; 2]) = if local.values.is_some() {
+        let faces: Vec<u32> = fan.spokes.iter().map(|&spoke| topology.face(spoke)).collect();
+        let mean = |k: usize| faces.iter().map(|&face| right[face as usize][k]).sum::<f64>() / faces.len() as f64;
+        let centre = [mean(0), mean(1)];
+        (faces, centre)
+    } else {
+        let heads = fan.spokes.iter().map(|&spoke| topology.head(spoke));
+        let ends = heads.chain(fan.last.map(|last| topology.origin(last))).collect();
+        (ends, right[topology.origin(0) as usize])
+    };
     if fan.is_closed() {
         ends.push(ends[0]);
     }
-    let centre = right[topology.origin(0) as usize];
     let at = |end: u32| [0, 1].map(|k| right[end as usize][k] - centre[k]);
     let turns: Vec<(f64, f64)> = ends
         .windows(2)

@@ -149,6 +149,7 @@ impl<'s, 'r> Evaluator<'s, 'r> {
                     mesh: &surface.base,
                     topology: &surface.topology,
                     ends: surface.ends,
+                    values: surface.values.as_deref(),
                 };
                 let own = |id: u32| surface.rules.vertices().any(|v| v == id).then_some(id);
                 let none = surface.rules.vertices().next().is_none();
@@ -213,7 +214,7 @@ fn half_of(control: &crate::Mesh, half: u32, further: u32) -> u32 {
 }
 
 fn reach(surface: &Surface<'_>) -> Reach {
-    if surface.rules.reaches_beyond_vertex() {
+    if surface.values.is_none() && surface.rules.reaches_beyond_vertex() {
         Reach::Two
     } else {
         Reach::One
@@ -226,7 +227,7 @@ fn node(surface: &Surface<'_>, local: Local, deepest: usize) -> Result<Node, Err
     if !local.is_soft() {
         let near = reach == Reach::Two && local.is_near_special(rules);
         if irregular.is_empty() && !near {
-            let points = local.mesh.points();
+            let points = local.points();
             let combined = |row: &crate::refine::Row| {
                 let mut sum = [0.0; 3];
                 for &(at, w) in row {
@@ -246,7 +247,7 @@ fn node(surface: &Surface<'_>, local: Local, deepest: usize) -> Result<Node, Err
                 .ok()
                 .and_then(|centres| centres.get(&key).cloned());
             if let Some(centre) = known {
-                let ladder = Box::new(Ladder::new(&centre, turned.mesh.points()));
+                let ladder = Box::new(Ladder::new(&centre, turned.points()));
                 return Ok(Node::Centre(corner, centre, ladder));
             }
             let refined = turned.refined(rules)?;
@@ -256,7 +257,7 @@ fn node(surface: &Surface<'_>, local: Local, deepest: usize) -> Result<Node, Err
                 if let Ok(mut centres) = surface.centres.lock() {
                     centres.insert(key, Arc::clone(&centre));
                 }
-                let ladder = Box::new(Ladder::new(&centre, turned.mesh.points()));
+                let ladder = Box::new(Ladder::new(&centre, turned.points()));
                 return Ok(Node::Centre(corner, centre, ladder));
             }
         }

@@ -9,6 +9,7 @@ use crate::features::{INFINITE, edge};
 use crate::refine::{Step, step};
 use crate::rules::Rules;
 use crate::{Error, Mesh, Topology};
+use nalgebra::Point3;
 use std::collections::{HashMap, HashSet};
 
 /// What the structure around a face is: two faces with the same key have the same rules.
@@ -27,6 +28,10 @@ pub(crate) struct Local {
     pub topology: Topology,
     /// The point of the mesh before, for each point.
     pub ids: Vec<u32>,
+    /// The face of the mesh before, for each face.
+    pub faces: Vec<u32>,
+    /// Of dual schemes the points, which sit on faces.
+    pub values: Option<Vec<Point3<f64>>>,
     /// The vertex of the control mesh with a definition of its own, for each point that is one.
     pub named: HashMap<u32, u32>,
 }
@@ -45,6 +50,8 @@ pub(crate) struct Source<'a> {
     pub mesh: &'a Mesh,
     pub topology: &'a Topology,
     pub ends: Ends,
+    /// Of dual schemes the point of each face.
+    pub values: Option<&'a [Point3<f64>]>,
 }
 
 impl Source<'_> {
@@ -191,10 +198,16 @@ impl Source<'_> {
             .enumerate()
             .filter_map(|(number, &id)| Some((number as u32, named(id)?)))
             .collect();
+        let faces: Vec<u32> = faces.into_iter().map(|half| topology.face(half)).collect();
+        let values = self
+            .values
+            .map(|values| faces.iter().map(|&face| values[face as usize]).collect());
         Local {
             topology: Topology::unchecked(&mesh),
             mesh,
             ids,
+            faces,
+            values,
             named,
         }
     }
@@ -218,7 +231,18 @@ impl Local {
             mesh: &self.mesh,
             topology: &self.topology,
             ends: Ends::Open,
+            values: self.values.as_deref(),
         }
+    }
+
+    /// The control points.
+    pub fn points(&self) -> &[Point3<f64>] {
+        self.values.as_deref().unwrap_or(self.mesh.points())
+    }
+
+    /// The numbers that the control points have in the refined part before.
+    pub fn unknowns(&self) -> &[u32] {
+        if self.values.is_some() { &self.faces } else { &self.ids }
     }
 
     /// The same part counted from another corner of its face.
@@ -230,6 +254,9 @@ impl Local {
 
     /// The part, refined once.
     pub fn refined(&self, rules: &Rules) -> Result<Step, Error> {
+        if self.values.is_some() {
+            return super::dual::step(self, rules);
+        }
         if self.named.is_empty() {
             return step(&self.mesh, &self.topology, rules, 0, Ends::Open);
         }
@@ -250,6 +277,7 @@ impl Local {
             mesh: &refined.mesh,
             topology: &topology,
             ends: Ends::Open,
+            values: refined.values.as_deref(),
         };
         let start = 4 * face + (4 - corner) % 4;
         // old points keep their numbers

@@ -9,6 +9,7 @@
 //! and z by `lambda^2m`, nothing cancels and nothing underflows down to parameters of 1e-18 and below.
 
 mod centre;
+mod dual;
 mod evaluate;
 mod local;
 mod patch;
@@ -23,6 +24,7 @@ use crate::refiner::{Refiner, RulesOn};
 use crate::rules::{Method, Rules};
 use crate::{Error, Mesh, Topology};
 use centre::Centre;
+use nalgebra::Point3;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex};
 
@@ -54,6 +56,8 @@ pub struct Surface<'a> {
     /// The mesh on which evaluation starts: quads whose special vertices lie apart.
     base: Mesh,
     topology: Topology,
+    /// Of dual schemes the points of the base, one for each face.
+    values: Option<Vec<Point3<f64>>>,
     /// How many levels the base is finer than the control mesh.
     lift: usize,
     /// What is known of irregular centres, by the structure around them.
@@ -74,11 +78,15 @@ impl<'a> Surface<'a> {
         match rules.method()? {
             Method::Bicubic => {}
             Method::Even { order: 4, u0: 1.0 } => {}
+            Method::Odd { u0: 1.0 } if rules.inner(None, 4)?.limit().passes().len() == 1 => {
+                return Surface::dual(mesh, rules);
+            }
             _ => {
                 return Err(Error::NoRule {
                     what: format!("no exact limits of {}", rules.definition().name()),
                     elements: "any face".to_owned(),
-                    accepted: "are catmull-clark, the lambda-scheme, stam:order=4 and bicubic scheme files".to_owned(),
+                    accepted: "are catmull-clark, the lambda-scheme, doo-sabin, orders 3 and 4 at u0 = 1, and bicubic scheme files"
+                        .to_owned(),
                 });
             }
         }
@@ -96,6 +104,7 @@ impl<'a> Surface<'a> {
                     control: mesh.clone(),
                     base,
                     topology,
+                    values: None,
                     lift,
                     centres: Mutex::default(),
                 });
@@ -110,6 +119,34 @@ impl<'a> Surface<'a> {
             base = step(&base, &topology, on_base.get(), lift, ends)?.mesh;
             lift += 1;
         }
+    }
+
+    /// The surface of corner cutting: the base are the quarters of faces, each with the point that the first
+    /// level gives its corner.
+    fn dual(mesh: &Mesh, rules: &'a Rules) -> Result<Self, Error> {
+        let control = Topology::unchecked(mesh);
+        if !control.boundary_loops().is_empty() || !mesh.features.is_empty() {
+            return Err(Error::NoRule {
+                what: format!(
+                    "no exact limits of {} beside boundaries and creases",
+                    rules.definition().name()
+                ),
+                elements: "an open or creased mesh".to_owned(),
+                accepted: "are closed meshes without marks".to_owned(),
+            });
+        }
+        let base = crate::refine::quads(mesh, &control);
+        let topology = Topology::unchecked(&base);
+        Ok(Surface {
+            rules,
+            ends: Ends::Open,
+            control: mesh.clone(),
+            base,
+            topology,
+            values: Some(crate::dual_block::first_points(mesh, &control, rules)?),
+            lift: 1,
+            centres: Mutex::default(),
+        })
     }
 
     /// The control mesh.
@@ -185,7 +222,7 @@ impl<'a> Surface<'a> {
         let mut weights = Vec::with_capacity(vertices.len());
         let mut unit = self.control.clone();
         for three in vertices.chunks(3) {
-            unit.points_mut().fill(nalgebra::Point3::origin());
+            unit.points_mut().fill(Point3::origin());
             for (axis, &vertex) in three.iter().enumerate() {
                 unit.points_mut()[vertex as usize][axis] = 1.0;
             }

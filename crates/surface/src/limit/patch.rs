@@ -47,6 +47,9 @@ pub(crate) fn jet(control: &[[f64; 3]; 16], s: f64, t: f64) -> Jet3 {
 /// The rows of the sixteen control points of a regular face over the points of its part, along s first.
 /// Beyond rims points are reflected.
 pub(crate) fn control(local: &Local) -> [Row; 16] {
+    if local.values.is_some() {
+        return super::dual::control(local);
+    }
     let topology = &local.topology;
     let mut rows: [Row; 16] = std::array::from_fn(|_| Row::new());
     let place = |x: i32, y: i32| (4 * (y + 1) + x + 1) as usize;

@@ -56,6 +56,7 @@ impl Surface<'_> {
             mesh: &self.control,
             topology: &topology,
             ends: self.ends,
+            values: None,
         };
         let mut found = Vec::new();
         for vertex in 0..topology.vertex_count() as u32 {
