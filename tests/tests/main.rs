@@ -3,6 +3,7 @@
 
 mod cases;
 mod contradictions;
+mod corner_certificates;
 mod corners;
 mod curves;
 mod curves_exact;

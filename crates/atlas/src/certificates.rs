@@ -198,19 +198,11 @@ impl Ranged {
 const SUMMED_UP: [Requirement; 3] = [Requirement::C1, Requirement::Bounded, Requirement::Strict];
 
 /// The statements about a stationary scheme, in their columns.
-const STATEMENTS: [Statement; 11] = [
-    Statement::RowSums,
-    Statement::Hull,
-    Statement::Dominant,
-    Statement::Subdominant,
-    Statement::Regular,
-    Statement::Injective,
-    Statement::BoundedCurvature,
-    Statement::NonDegenerate,
-    Statement::Strict,
-    Statement::Corner,
-    Statement::Gauss,
-];
+fn statements() -> impl Iterator<Item = Statement> {
+    Statement::ALL
+        .into_iter()
+        .filter(|&statement| statement != Statement::Levels)
+}
 
 /// One line a certificate: the verdicts, the status of each statement, eigenvalue and ratio. Certificates are
 /// in the order of what they are of.
@@ -218,7 +210,7 @@ pub fn summary(singles: &[Single], certificates: &[Certificate]) -> Table {
     let mut columns = vec!["scheme", "valence", "lambda", "mu_ratio", "jacobian_margin"];
     // the words of the requirements are names of checks too
     columns.extend(["is_c1", "is_bounded", "is_strict"]);
-    columns.extend(STATEMENTS.map(Statement::name));
+    columns.extend(statements().map(Statement::name));
     let mut table = Table::new(columns);
     for (single, certificate) in singles.iter().zip(certificates) {
         let enclosed = |statement: Statement| certificate.check(statement).and_then(|check| check.enclosure);
@@ -240,7 +232,7 @@ pub fn summary(singles: &[Single], certificates: &[Certificate]) -> Table {
                 .map(|check| check.status.to_string())
                 .into()
         };
-        row.extend(STATEMENTS.map(status));
+        row.extend(statements().map(status));
         table.push(row);
     }
     table

@@ -10,7 +10,7 @@
 //! with exact ones where these exist, and for the lambda-scheme the equalities that its closed forms give
 //! ([`Identities`]).
 
-use crate::levels::Tail;
+use crate::levels::{Beyond, Tail};
 use crate::{Error, Interval};
 use eigenring_scheme::families::tension_level;
 use eigenring_scheme::lambda::{Member, Plane, Source, Untabulated};
@@ -143,7 +143,7 @@ impl Input {
                 let spec: Spec = spec.parse()?;
                 let exact = spec.exact(valence)?;
                 let corner = Definition::Family(spec.clone()).closed(valence)?;
-                let (tail, affine_levels) = beyond_leading(&spec, &corner)?;
+                let (beyond, affine_levels) = beyond_leading(&spec, &corner)?;
                 // enclosures of exact numbers, or, where levels have roots in them, of the formulas
                 let scheme = match &exact {
                     Some(exact) if exact.leading().is_empty() => enclosed(exact),
@@ -154,7 +154,8 @@ impl Input {
                     exact,
                     identities: None,
                     floating: false,
-                    tail,
+                    corner: Some(corner),
+                    beyond,
                     affine_levels,
                     balance: Balance::default(),
                 })
@@ -163,7 +164,7 @@ impl Input {
                 let spec: Spec = spec.parse()?;
                 let definition = Definition::Family(spec.clone());
                 let corner = shape.corner(definition.centre(), *steps)?;
-                let (tail, affine_levels) = beyond_leading(&spec, &corner)?;
+                let (beyond, affine_levels) = beyond_leading(&spec, &corner)?;
                 let found = corner.sectors().sectors();
                 if found != valence {
                     return Err(Error::Sectors { found, valence });
@@ -178,7 +179,8 @@ impl Input {
                     exact,
                     identities: None,
                     floating: false,
-                    tail,
+                    corner: Some(corner),
+                    beyond,
                     affine_levels,
                     balance: Balance::default(),
                 })
@@ -192,7 +194,8 @@ impl Input {
                     exact: Some(exact.clone()),
                     identities: None,
                     floating: false,
-                    tail: None,
+                    corner: None,
+                    beyond: Beyond::Unknown,
                     affine_levels: false,
                     balance: file.balance(valence)?,
                 })
@@ -221,7 +224,8 @@ impl Input {
                     exact: None,
                     identities: None,
                     floating: true,
-                    tail: None,
+                    corner: None,
+                    beyond: Beyond::Unknown,
                     affine_levels: false,
                     balance: Balance::default(),
                 })
@@ -241,26 +245,33 @@ pub struct Subject {
     pub identities: Option<Identities>,
     /// Whether the weights are results of rounding.
     pub floating: bool,
-    /// The levels beyond the leading ones, where they are those of the tension scheme.
-    pub tail: Option<Tail>,
+    /// What the scheme sees, where it is a corner of a family.
+    pub corner: Option<Corner>,
+    /// What is known of the levels beyond the leading ones.
+    pub beyond: Beyond,
     /// Whether the rows of the leading levels sum to 1 whatever the tension is.
     pub affine_levels: bool,
     /// What was balanced in the weights of a file.
     pub balance: Balance,
 }
 
-/// The levels of the tension scheme beyond its leading ones around a corner, and whether the rows of all
-/// levels sum to 1 whatever the tension is. The weights of a pass, times `(1+u)^2`, are polynomials of degree
-/// 2 in u; a sum of such that is `(1+u)^2` at three values of u is so at all.
-fn beyond_leading(spec: &Spec, corner: &Corner) -> Result<(Option<Tail>, bool), Error> {
+/// What is known of a family's levels beyond the leading ones around a corner, and whether the rows of all
+/// levels of the tension scheme sum to 1. The weights of a pass, times `(1+u)^2`, are polynomials of degree 2
+/// in u; a sum of such that is `(1+u)^2` at three values of u is so at all.
+fn beyond_leading(spec: &Spec, corner: &Corner) -> Result<(Beyond, bool), Error> {
     let Some((order, u0)) = spec.order_and_tension() else {
-        return Ok((None, false));
+        // of other families only knot intervals have levels that differ
+        return Ok((Beyond::Same, false));
     };
     let affine = [0, 2, 3].into_iter().all(|u| {
         let level = tension_level(corner, order, Exact::ratio(u, 1));
         level.is_ok_and(|level| passes_are_affine(&level))
     });
-    Ok((Tail::new(corner, order, u0)?, affine))
+    let tail = Tail::new(corner, order, u0)?;
+    Ok((
+        tail.map_or(Beyond::Unknown, |tail| Beyond::Tail(Box::new(tail))),
+        affine,
+    ))
 }
 
 /// Whether the weights of every point that a pass makes are known to sum to 1: then those of the whole level
@@ -347,7 +358,8 @@ fn lambda_subject(valence: usize, lambda: f64, s: f64, f2: f64, f3: Option<f64>)
             square: s == 1.0,
         }),
         floating: false,
-        tail: None,
+        corner: None,
+        beyond: Beyond::Unknown,
         affine_levels: false,
         balance: Balance::default(),
     })

@@ -36,46 +36,87 @@ mod tail;
 
 pub use tail::Tail;
 
-use crate::linear::eigenpair;
+use crate::linear::{eigenpair, solve};
 use crate::{Check, Interval, Statement, Subject};
 use eigenring_spectral::{Block, Matrix, fourier_block, local_matrix};
 
-/// `levels`, for schemes that have leading levels. `pair` holds the subdominant eigenvalue, or the two of
-/// them, the larger first.
-pub fn levels(subject: &Subject, pair: Option<&[Interval]>) -> Option<Check> {
+/// What is known of the levels beyond the leading ones.
+#[derive(Clone, Debug)]
+pub enum Beyond {
+    /// Nothing, or there are no leading levels.
+    Unknown,
+    /// Around the centre they are the limit level. Knot intervals differ from those of the limit level at
+    /// distances from the centre that double with each level, and after the leading ones begin eight edges
+    /// out.
+    Same,
+    /// They tend to the limit level as those of the tension scheme do.
+    Tail(Box<Tail>),
+}
+
+impl Beyond {
+    /// The levels that are not the limit level.
+    pub fn tail(&self) -> Option<&Tail> {
+        match self {
+            Beyond::Tail(tail) => Some(tail),
+            Beyond::Unknown | Beyond::Same => None,
+        }
+    }
+}
+
+/// A subdominant pair.
+#[derive(Clone, Copy, Debug)]
+pub struct Pair<'a> {
+    /// The eigenvalue of Fourier index 1, or both of rules that differ from sector to sector, the larger
+    /// first.
+    pub values: &'a [Interval],
+    /// Two eigenvectors of a double eigenvalue of rules that differ from sector to sector, which are all of
+    /// them.
+    pub double: Option<&'a [Vec<Interval>; 2]>,
+}
+
+/// `levels`, for schemes that have leading levels.
+pub fn levels(subject: &Subject, pair: Option<Pair<'_>>) -> Option<Check> {
     const NAME: Statement = Statement::Levels;
     if subject.scheme.leading().is_empty() {
         return None;
     }
-    let Some(tail) = &subject.tail else {
-        return Some(Check::undecided(
-            NAME,
-            "how the levels tend to the limit level is not known",
-        ));
-    };
-    let Some(&least) = pair.and_then(<[Interval]>::last) else {
+    if let Beyond::Unknown = subject.beyond {
+        let text = "how the levels tend to the limit level is not known";
+        return Some(Check::undecided(NAME, text));
+    }
+    let least = pair.and_then(|pair| pair.values.last().copied());
+    let (Some(pair), Some(least)) = (pair, least) else {
         return Some(Check::undecided(NAME, "no subdominant eigenvalue was proven"));
     };
     let quarter = Interval::point(0.25);
-    if !least.certainly_gt(quarter) {
+    let tail = subject.beyond.tail();
+    if tail.is_some() && !least.certainly_gt(quarter) {
         let text = format!("the levels tend to the limit level like 4^-l, and lambda = {least} is not above 1/4");
         return Some(Check::undecided(NAME, text));
     }
-    if !pair_survives(subject, tail, pair.unwrap_or_default()).unwrap_or(false) {
+    if !pair_survives(subject, tail, pair).unwrap_or(false) {
         let text = "the levels may map all nets to ones without tangents";
         return Some(Check::undecided(NAME, text));
     }
-    Some(
-        Check::proven(NAME)
+    Some(match tail {
+        Some(_) => Check::proven(NAME)
             .margin((least - quarter).lo())
             .remark("all levels tend to the limit level like 4^-l, and lambda > 1/4"),
-    )
+        None => Check::proven(NAME).remark(format!(
+            "after {} levels all are the limit level around the centre",
+            subject.scheme.leading().len()
+        )),
+    })
 }
 
 /// Whether the levels leave some net with tangents.
-fn pair_survives(subject: &Subject, tail: &Tail, pair: &[Interval]) -> Option<bool> {
+fn pair_survives(subject: &Subject, tail: Option<&Tail>, pair: Pair<'_>) -> Option<bool> {
     let scheme = &subject.scheme;
-    let rings = scheme.closed_rings().ok()?;
+    // leading levels may reach farther than the limit level
+    let mut rings = scheme.closed_rings().ok()?;
+    for level in scheme.leading() {
+        rings = rings.max(level.closed_rings().ok()?);
+    }
     let matrix = |level: usize| {
         let level = scheme.level(level);
         if !level.is_rotation_symmetric() {
@@ -88,18 +129,30 @@ fn pair_survives(subject: &Subject, tail: &Tail, pair: &[Interval]) -> Option<bo
     };
     let count = scheme.leading().len();
     let limit = matrix(count)?;
-    let mut functionals = pair
-        .iter()
-        .map(|&lambda| {
-            let left = left_eigenvector(&limit, lambda)?;
-            let size = left.iter().map(|x| Interval::point(x.mag())).sum();
-            let drift = tail.drift(lambda, size).ok()??;
-            Some(left.into_iter().map(|x| x + Interval::around(0.0, drift)).collect())
-        })
-        .collect::<Option<Vec<Vec<Interval>>>>()?;
+    let left = match pair.double {
+        None => pair
+            .values
+            .iter()
+            .map(|&lambda| left_eigenvector(&limit, lambda))
+            .collect::<Option<_>>()?,
+        Some(vectors) => left_eigenvectors(&limit, *pair.values.first()?, vectors)?,
+    };
+    let mut functionals = Vec::with_capacity(left.len());
+    for (left, &lambda) in left.into_iter().zip(pair.values) {
+        let size = left.iter().map(|x| Interval::point(x.mag())).sum();
+        let drift = match tail {
+            Some(tail) => tail.drift(lambda, size).ok()??,
+            None => 0.0,
+        };
+        functionals.push(
+            left.into_iter()
+                .map(|x| x + Interval::around(0.0, drift))
+                .collect::<Vec<_>>(),
+        );
+    }
     for level in (0..count).rev() {
         let matrix = matrix(level)?;
-        for (functional, lambda) in functionals.iter_mut().zip(pair) {
+        for (functional, lambda) in functionals.iter_mut().zip(pair.values) {
             // the scale is of no account, and this one keeps it moderate
             let scale = Interval::point(lambda.mid());
             *functional = times(functional, &matrix).into_iter().map(|x| x / scale).collect();
@@ -113,6 +166,40 @@ fn pair_survives(subject: &Subject, tail: &Tail, pair: &[Interval]) -> Option<bo
         }
         _ => false,
     })
+}
+
+/// Two independent left eigenvectors of an eigenvalue with the two given right ones x, y, and no others.
+///
+/// With `A = S - lambda` and `X = [x, y]` they are the w of `A^T w + X s = 0`, `X^T w = e_i`: as `X^T A^T =
+/// 0`, a solution has `X^T X s = 0`, hence `s = 0`.
+fn left_eigenvectors(
+    matrix: &Matrix<Interval>,
+    lambda: Interval,
+    right: &[Vec<Interval>; 2],
+) -> Option<Vec<Vec<Interval>>> {
+    let size = matrix.rows();
+    if right.iter().any(|vector| vector.len() < size) {
+        return None;
+    }
+    let zero = Interval::point(0.0);
+    let bordered = Matrix::from_fn(size + 2, size + 2, |i, j| match (i < size, j < size) {
+        (true, true) => matrix[(j, i)] - if i == j { lambda } else { zero },
+        (true, false) => right[j - size][i],
+        (false, true) => right[i - size][j],
+        (false, false) => zero,
+    });
+    let unit = |at: usize| {
+        (0..size + 2)
+            .map(|i| Interval::point(f64::from(i == size + at)))
+            .collect::<Vec<_>>()
+    };
+    (0..2)
+        .map(|at| {
+            let mut solution = solve(&bordered, &unit(at))?;
+            solution.truncate(size);
+            Some(solution)
+        })
+        .collect()
 }
 
 /// A left eigenvector of a simple eigenvalue.

@@ -23,6 +23,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod boundary;
 mod certificate;
 mod conditions;
 mod document;
@@ -35,16 +36,19 @@ mod levels;
 pub mod linear;
 pub mod map;
 mod mean_value;
+mod patches;
+mod proof;
 pub mod range;
+mod recheck;
 mod rows;
 pub mod spectral;
 mod status;
 
-pub use certificate::{
-    Balanced, CERTIFICATE_VERSION, Certificate, Difference, Evidence, Recheck, certify, check, recheck, recheck_text,
-};
+pub use certificate::{Balanced, CERTIFICATE_VERSION, Certificate, Evidence, certify, check};
 pub use error::Error;
 pub use input::{Identities, Input, Subject};
 pub use interval::Interval;
 pub use mean_value::{Centred, Enclose};
+pub use patches::Patches;
+pub use recheck::{Difference, Recheck, recheck, recheck_text};
 pub use status::{Check, Requirement, Statement, Status, Witness};

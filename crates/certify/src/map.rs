@@ -42,7 +42,7 @@ pub use regular::{JacobianEvidence, Regularity, regular};
 pub use subdivision::{MAX_DEPTH, Subdivision};
 pub use winding::{Winding, WindingEvidence, winding};
 
-use crate::{Enclose, Interval};
+use crate::{Enclose, Interval, Patches};
 use eigenring_scheme::{Lattice, Numbering, Scalar, Site};
 use eigenring_spectral::{Annulus, PatchIndex};
 use eigenring_spline::bernstein::{Coefficient, Polynomial};
@@ -130,7 +130,7 @@ impl Place {
 /// A map of the annulus into the plane by its control values: see the module page for the symmetries it has.
 #[derive(Clone, Debug)]
 pub struct PlaneNet<S> {
-    annulus: Annulus,
+    patches: Patches,
     /// The Fourier index; `None` for a net without rotation symmetry, of which all sectors are looked at.
     fourier: Option<usize>,
     mirror: bool,
@@ -153,14 +153,14 @@ impl<S: Enclose> PlaneNet<S> {
             return Err(NetError::Fourier { fourier, sectors });
         }
         let net = PlaneNet {
-            annulus,
+            patches: annulus.into(),
             fourier: Some(fourier),
             mirror,
             x,
             y,
         };
         let at = |index: usize| [net.x[index].enclosure(), net.y[index].enclosure()];
-        check_symmetry(net.annulus.numbering, fourier, mirror.then_some([1, -1]), at)?;
+        check_symmetry(net.annulus().numbering, fourier, mirror.then_some([1, -1]), at)?;
         Ok(net)
     }
 
@@ -169,11 +169,11 @@ impl<S: Enclose> PlaneNet<S> {
     ///
     /// # Errors
     /// [`NetError`] where lengths or degree do not fit.
-    pub fn whole(annulus: Annulus, parts: [Vec<S>; 2]) -> Result<Self, NetError> {
-        check_size(&annulus, &parts)?;
+    pub fn whole(patches: Patches, parts: [Vec<S>; 2]) -> Result<Self, NetError> {
+        check_size(&patches.annulus, &parts)?;
         let [x, y] = parts;
         Ok(PlaneNet {
-            annulus,
+            patches,
             fourier: None,
             mirror: false,
             x,
@@ -185,7 +185,7 @@ impl<S: Enclose> PlaneNet<S> {
     pub fn middle(&self) -> PlaneNet<f64> {
         let middle = |values: &[S]| values.iter().map(|value| value.central().mid()).collect();
         PlaneNet {
-            annulus: self.annulus,
+            patches: self.patches.clone(),
             fourier: self.fourier,
             mirror: self.mirror,
             x: middle(&self.x),
@@ -197,7 +197,7 @@ impl<S: Enclose> PlaneNet<S> {
 impl<S: Coefficient> PlaneNet<S> {
     /// Where the patches are.
     pub fn annulus(&self) -> &Annulus {
-        &self.annulus
+        &self.patches.annulus
     }
 
     /// The Fourier index; `None` for a net without rotation symmetry.
@@ -212,7 +212,7 @@ impl<S: Coefficient> PlaneNet<S> {
 
     /// The valence.
     pub fn sectors(&self) -> usize {
-        self.annulus.numbering.fan.sectors()
+        self.annulus().numbering.fan.sectors()
     }
 
     /// The patches that stand for all others under rotation, and under reflection where the net has it: those
@@ -220,28 +220,24 @@ impl<S: Coefficient> PlaneNet<S> {
     /// sectors.
     pub fn patches(&self) -> Vec<PatchIndex> {
         self.representatives()
-            .flat_map(|sector| self.annulus.patches(sector))
+            .flat_map(|sector| self.annulus().patches(sector))
             .filter(|patch| !self.mirror || patch.p >= patch.q)
             .collect()
     }
 
     /// The coordinates of a patch in Bernstein form.
     fn coordinates(&self, patch: PatchIndex, conversion: &[Vec<S>]) -> [Polynomial<S>; 2] {
-        let control = self.annulus.control(patch);
-        [&self.x, &self.y].map(|values| {
-            let values: Vec<S> = control.iter().map(|&index| values[index]).collect();
-            Polynomial::from_control(&values, conversion)
-        })
+        [&self.x, &self.y].map(|values| self.patches.polynomial(values, patch, conversion))
     }
 
     /// The Jacobian `x_u y_v - x_v y_u` on a patch, of degrees `2d - 1`.
     pub fn jacobian(&self, patch: PatchIndex) -> Polynomial<S> {
-        self.jacobian_with(patch, &to_bernstein(self.annulus.degree))
+        self.jacobian_with(patch, &to_bernstein(self.annulus().degree))
     }
 
     /// The Jacobians on [`PlaneNet::patches`].
     pub fn jacobians(&self) -> Vec<Polynomial<S>> {
-        let conversion = to_bernstein(self.annulus.degree);
+        let conversion = to_bernstein(self.annulus().degree);
         self.patches()
             .into_iter()
             .map(|patch| self.jacobian_with(patch, &conversion))

@@ -17,7 +17,7 @@ fn levels(subject: &Subject) -> impl Iterator<Item = (&Level<Interval>, Option<&
     let exact = move |index: usize| subject.exact.as_ref().map(|exact| exact.level(index));
     let leading =
         (0..count).map(move |index| (subject.scheme.level(index), exact(index), format!(" of level {index}")));
-    let beyond = subject.tail.iter();
+    let beyond = subject.beyond.tail().into_iter();
     let beyond = beyond.map(move |tail| (&tail.level, None, format!(" of a level from {count} on")));
     let limit = (subject.scheme.limit(), exact(count), String::new());
     leading.chain(beyond).chain([limit])

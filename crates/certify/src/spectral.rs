@@ -21,11 +21,12 @@ mod map;
 
 pub use block::{Block, Place, blocks};
 pub use component::{Located, Peel, Rest, enclose};
-pub use map::{Net, eigenvector, is_visible, net};
+pub use map::{Net, eigenvector, eigenvector_within, is_visible, net};
 
 use crate::linear::Eigenvalue;
-use crate::{Error, Input, Interval};
-use eigenring_spectral::Annulus;
+use crate::patches::{Unknown, coordinates};
+use crate::{Error, Input, Interval, Patches, Subject};
+use eigenring_scheme::Scalar;
 use serde::{Deserialize, Serialize};
 
 /// Approximations found by a search: for each block and component, how it comes apart.
@@ -35,7 +36,10 @@ pub type Evidence = Vec<Vec<Peel>>;
 #[derive(Clone, Debug)]
 pub struct Spectrum {
     /// Where the patches are, and their control points.
-    pub annulus: Annulus,
+    pub patches: Patches,
+    /// The coordinates of the points, if rules that differ from sector to sector halve them: two eigenvectors
+    /// of 1/2, without which the one block is.
+    pub coordinates: Option<[Vec<Interval>; 2]>,
     /// The blocks of index 0 to N/2, or the undivided matrix as the only one.
     pub blocks: Vec<Block>,
     /// The eigenvalues of all blocks.
@@ -62,6 +66,8 @@ pub struct Entry {
 pub struct Bound {
     /// The Fourier index.
     pub index: usize,
+    /// The component of the block.
+    pub component: usize,
     /// How many.
     pub count: usize,
     /// Their moduli are below this.
@@ -71,7 +77,12 @@ pub struct Bound {
 impl Spectrum {
     /// The spectrum of a subject's blocks, with the help of evidence. Evidence that is missing or wrong
     /// leaves wide bounds.
-    pub fn new(annulus: Annulus, blocks: Vec<Block>, evidence: &Evidence) -> Self {
+    pub fn new(problem: Problem, evidence: &Evidence) -> Self {
+        let Problem {
+            patches,
+            blocks,
+            coordinates,
+        } = problem;
         let (mut entries, mut bounds) = (Vec::new(), Vec::new());
         let none = Peel::default();
         for (position, block) in blocks.iter().enumerate() {
@@ -89,13 +100,15 @@ impl Spectrum {
                 }));
                 bounds.extend(rest.map(|(count, radius)| Bound {
                     index: block.index,
+                    component,
                     count,
                     radius,
                 }));
             }
         }
         Spectrum {
-            annulus,
+            patches,
+            coordinates,
             blocks,
             entries,
             bounds,
@@ -141,30 +154,58 @@ impl Spectrum {
     }
 }
 
-/// The annulus of a scheme and the blocks of the matrix that determines it.
-///
-/// # Errors
-/// [`Error::Spectral`] if the rules cannot be run, [`Error::Size`] beyond [`MAX_BLOCK`] unknowns.
-pub fn problem(scheme: &eigenring_scheme::Scheme<Interval>) -> Result<(Annulus, Vec<Block>), Error> {
-    let annulus = Annulus::new(scheme)?;
-    let rings = annulus.numbering.rings.max(scheme.closed_rings()?);
-    let annulus = Annulus {
-        numbering: scheme.numbering(rings),
-        ..annulus
-    };
-    Ok((annulus, blocks(scheme.limit(), &annulus)?))
+/// What is to be enclosed.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    /// The patches around the centre.
+    pub patches: Patches,
+    /// The blocks of the matrix that determines them.
+    pub blocks: Vec<Block>,
+    /// See [`Spectrum::coordinates`].
+    pub coordinates: Option<[Vec<Interval>; 2]>,
+}
+
+impl Problem {
+    /// The patches of a subject and the blocks of the matrix that determines them; or why patches are not
+    /// known.
+    ///
+    /// # Errors
+    /// [`Error::Spectral`] if the rules cannot be run, [`Error::Size`] beyond [`MAX_BLOCK`] unknowns.
+    pub(crate) fn new(subject: &Subject) -> Result<Result<Self, Unknown>, Error> {
+        let patches = match Patches::new(subject)? {
+            Ok(patches) => patches,
+            Err(unknown) => return Ok(Err(unknown)),
+        };
+        let (level, numbering) = (subject.scheme.limit(), patches.numbering());
+        let halved = match (&subject.corner, &subject.exact) {
+            (Some(corner), Some(exact)) if !level.is_rotation_symmetric() => {
+                coordinates(exact.limit(), corner, numbering)
+            }
+            _ => None,
+        };
+        let coordinates = halved.map(|parts| parts.map(|part| part.iter().map(Interval::rational).collect()));
+        Ok(Ok(Problem {
+            blocks: blocks(level, &patches, coordinates.as_ref())?,
+            patches,
+            coordinates,
+        }))
+    }
 }
 
 /// The largest number of unknowns of a block: dense matrices, of which there are N/2 + 1. Tension of order 22
 /// needs 930.
 pub const MAX_BLOCK: usize = 1000;
 
-/// The blocks of an input at a valence.
+/// The largest number of points of an undivided matrix, of which there is one. Order 6 around 32 sectors
+/// needs 1400.
+pub const MAX_POINTS: usize = 2000;
+
+/// The problem of an input at a valence; `None` where patches are not known.
 ///
 /// # Errors
-/// As [`problem`], and those of the input.
-pub fn problem_of(input: &Input, valence: usize) -> Result<(Annulus, Vec<Block>), Error> {
-    problem(&input.subject(valence)?.scheme)
+/// As for any certificate: those of the input and of running the rules, [`Error::Size`].
+pub fn problem_of(input: &Input, valence: usize) -> Result<Option<Problem>, Error> {
+    Ok(Problem::new(&input.subject(valence)?)?.ok())
 }
 
 #[cfg(test)]

@@ -47,6 +47,11 @@ impl<W: Clone> Line<W> {
         self.near.is_empty()
     }
 
+    /// The farthest target that has taps of its own.
+    pub fn last_near(&self) -> Option<i32> {
+        self.near.last_key_value().map(|(&x, _)| x)
+    }
+
     /// The taps of each class.
     pub fn classes(&self) -> &[Taps<W>] {
         &self.classes
@@ -68,8 +73,7 @@ impl<W: Clone> Line<W> {
     pub(crate) fn farthest_reader(&self, reach: i32) -> i32 {
         let offsets = self.classes.iter().flatten().map(|(offset, _)| offset.abs());
         let uniform = self.scale() * reach + offsets.max().unwrap_or(0);
-        let near = self.near.last_key_value().map_or(0, |(&x, _)| x);
-        uniform.max(near)
+        uniform.max(self.last_near().unwrap_or(0))
     }
 
     /// Whether every tap of every class leads from a point of `to` to a point of `from`.

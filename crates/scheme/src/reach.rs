@@ -67,6 +67,23 @@ impl<W: Clone> Level<W> {
         Ok(marked.iter().map(|site| site.ring()).max())
     }
 
+    /// The last step from a spoke at which a refined point may be made otherwise than further out: beyond it
+    /// rules are copies of each other, shifted. Special stencils are not counted.
+    pub fn last_irregular_step(&self) -> usize {
+        let mut last = 0;
+        for pass in self.passes() {
+            let taps = |line: &crate::Line<W>| {
+                let offsets = line.classes().iter().flatten().map(|(offset, _)| offset.abs());
+                (offsets.max().unwrap_or(0), line.last_near().unwrap_or(0))
+            };
+            let larger = |a: (i32, i32), b: (i32, i32)| (a.0.max(b.0), a.1.max(b.1));
+            let (reach, near) = pass.all_lines().map(taps).fold((0, 0), larger);
+            // what reads an irregular point, or across the spoke
+            last = (last * pass.scale() + reach).max(near);
+        }
+        last as usize / 2 + 1
+    }
+
     /// The smallest number of rings that holds every point with a special rule and whose refinement reads no
     /// point outside: the smallest net with a square local matrix, which has all eigenvalues that are not
     /// those of regular rings alone.

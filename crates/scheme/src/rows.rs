@@ -5,12 +5,18 @@ use std::collections::BTreeMap;
 
 impl<S: Scalar> Level<S> {
     /// Refined points that show every row of the level: those of the closed rings, which hold all special
-    /// ones, and of two rings more for the regular rules; of one sector where all sectors are alike.
+    /// ones, and of two rings more for the regular rules; of as many rings as rules change in along a spoke;
+    /// of one sector where all sectors are alike.
     ///
     /// # Errors
     /// Those of [`Level::closed_rings`].
     pub fn row_sites(&self) -> Result<Vec<Site>, Error> {
-        let numbering = self.numbering(self.closed_rings()? + 2);
+        let uniform = self
+            .passes()
+            .iter()
+            .all(|pass| pass.all_lines().all(crate::Line::is_uniform));
+        let along = if uniform { 0 } else { self.last_irregular_step() + 2 };
+        let numbering = self.numbering((self.closed_rings()? + 2).max(along));
         if !self.is_rotation_symmetric() {
             return Ok(numbering.sites());
         }

@@ -24,7 +24,7 @@ pub struct Corner {
 
 /// The corner angle; `None` around a face, which has no such quad.
 pub fn corner<S: Enclose>(net: &PlaneNet<S>) -> Option<Corner> {
-    let numbering = net.annulus.numbering;
+    let numbering = net.annulus().numbering;
     if numbering.lattice != Lattice::Vertex {
         return None;
     }

@@ -86,7 +86,7 @@ impl<S: Enclose> Heights<S> {
     /// # Errors
     /// [`NetError`] where lengths or number of parts do not fit, or the values contradict the symmetry.
     pub fn new(net: &PlaneNet<S>, fourier: usize, parts: Vec<Vec<S>>) -> Result<Self, NetError> {
-        let (numbering, sectors) = (net.annulus.numbering, net.sectors());
+        let (numbering, sectors) = (net.annulus().numbering, net.sectors());
         if fourier >= sectors {
             return Err(NetError::Fourier { fourier, sectors });
         }
@@ -162,7 +162,7 @@ impl<S> Heights<S> {
 
 /// The polynomials of one patch, of equal degrees: `J^4`, then K for one map or `P_0, P_1, P_2` for a pair.
 pub(super) fn forms<S: Coefficient>(net: &PlaneNet<S>, heights: &Heights<S>, patch: PatchIndex) -> Vec<Polynomial<S>> {
-    let conversion = to_bernstein::<S>(net.annulus.degree);
+    let conversion = to_bernstein::<S>(net.annulus().degree);
     let scaled = |f: Polynomial<S>| f.scaled();
     let [x, y] = net.coordinates(patch, &conversion);
     let [xu, xv, yu, yv] = [x.by_u(), x.by_v(), y.by_u(), y.by_v()].map(scaled);
@@ -171,7 +171,7 @@ pub(super) fn forms<S: Coefficient>(net: &PlaneNet<S>, heights: &Heights<S>, pat
     let (xw, yw) = (second(&x), second(&y));
     let by_u: [_; 3] = std::array::from_fn(|w| xv.product(&yw[w]).minus(&yv.product(&xw[w])));
     let by_v: [_; 3] = std::array::from_fn(|w| yu.product(&xw[w]).minus(&xu.product(&yw[w])));
-    let control = net.annulus.control(patch);
+    let control = net.annulus().control(patch);
     let forms: Vec<_> = heights
         .parts
         .iter()
@@ -187,7 +187,7 @@ pub(super) fn forms<S: Coefficient>(net: &PlaneNet<S>, heights: &Heights<S>, pat
         })
         .collect();
     let square = jacobian.product(&jacobian);
-    let raised = Scaled::one([2 * net.annulus.degree; 2]);
+    let raised = Scaled::one([2 * net.annulus().degree; 2]);
     let curvature = |a: &[Scaled<S>; 3], b: &[Scaled<S>; 3]| a[0].product(&b[2]).minus(&a[1].product(&b[1]));
     let polynomial = |k: Scaled<S>| k.product(&raised).unscaled();
     let mut result = vec![square.product(&square).unscaled()];
@@ -236,7 +236,7 @@ pub fn curvature<S: Enclose>(
     for (part, place) in evidence.places.iter().enumerate() {
         let patch = PatchIndex {
             sector: 0,
-            ..place.patch(&net.annulus)?
+            ..place.patch(net.annulus())?
         };
         let at = patches.iter().position(|&known| known == patch)?;
         inner.push(

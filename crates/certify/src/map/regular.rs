@@ -123,7 +123,7 @@ fn one_sign<S: Enclose>(net: &PlaneNet<S>, positive: bool, trees: &[Subdivision]
 
 fn fold<S: Enclose>(net: &PlaneNet<S>, places: [Place; 2]) -> Regularity {
     let value = |place: Place| {
-        let patch = place.patch(&net.annulus)?;
+        let patch = place.patch(net.annulus())?;
         Some(
             net.jacobian(patch)
                 .value(S::exact(place.u), S::exact(place.v))

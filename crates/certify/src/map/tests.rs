@@ -159,7 +159,7 @@ fn a_folded_map_is_caught_with_its_witness() {
                 p: place.p,
                 q: place.q,
             };
-            let jet = |values: &[f64]| net.annulus.patch(values, patch).jet(place.u, place.v);
+            let jet = |values: &[f64]| net.annulus().patch(values, patch).jet(place.u, place.v);
             let (x, y) = (jet(&middle.x), jet(&middle.y));
             x.first[0] * y.first[1] - x.first[1] * y.first[0]
         };

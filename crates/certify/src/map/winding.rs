@@ -19,11 +19,30 @@
 //! end of the curve has an argument within a quarter turn of its half-plane's, so the change of argument lies
 //! in `(c/4 - 1/2, c/4 + 1/2)` turns. By rotation symmetry it is `k / N + j` for an integer j, of which that
 //! range holds at most one; the N sectors together wind `k + N j` times.
+//!
+//! **Open fans.** Let X be regular on an open fan, `X(t/2) = diag(lambda_1, lambda_2) X(t)`, and let the
+//! images of the first and the last spoke be simple curves from the origin to infinity that do not meet. They
+//! divide the plane into two parts. Gluing the part that does not begin on X's side of them to the fan, by a
+//! homeomorphism that commutes with the scalings, makes a local homeomorphism of a closed fan, to which the
+//! theorem above applies: it is injective exactly if the boundary of the annulus, closed within the part that
+//! was added, winds once. Coordinate half-planes are mapped to themselves by the scalings. That is made use
+//! of twice:
+//!
+//! * a spoke lies in one of them, with its coordinate there increasing outwards: it is a simple curve;
+//! * the last spoke lies in one of them, H, and the first in the complement of H: they do not meet.
+//!
+//! Let H be the half-plane of quarter b and J positive. The argument of the end on the last spoke is then in
+//! `(b-1, b+1)` quarters, that of the beginning, one turn less than beyond H, in `[b-3, b-1]`: the half-plane
+//! a in which it was found is one of `b-3 .. b-1`. The boundary turns by c half-planes; closed on the way
+//! from `b-1 .. b+1` up to the next beginning it winds once if and only if its end comes out at that very
+//! place, not whole turns away from it: if and only if `|a + c - b| <= 1`. For a negative J the same holds of
+//! the mirror image, with `a` one of `b+1 .. b+3`. (The two do not overlap, and a regular map cannot have the
+//! number of the wrong orientation: it would cover the plane no times.)
 
 use super::{PlaneNet, Subdivision};
-use crate::{Enclose, Status};
+use crate::{Enclose, Interval, Status};
 use eigenring_spectral::PatchIndex;
-use eigenring_spline::bernstein::halves;
+use eigenring_spline::bernstein::{Polynomial, halves};
 use eigenring_spline::uniform::to_bernstein;
 use serde::{Deserialize, Serialize};
 
@@ -48,10 +67,10 @@ pub(super) type Curve<S> = [Vec<S>; 2];
 /// spoke, then back along the sides `v = 1` of those at the far end of the next. Without rotation symmetry
 /// the boundaries of all sectors.
 pub(super) fn boundary<S: Enclose>(net: &PlaneNet<S>) -> Vec<Curve<S>> {
-    let conversion = to_bernstein::<S>(net.annulus.degree);
-    let last = 2 * net.annulus.inner - 1;
+    let conversion = to_bernstein::<S>(net.annulus().degree);
+    let last = 2 * net.annulus().inner - 1;
     let curve = |sector: usize, p: usize, q: usize, side: usize| -> Curve<S> {
-        let width = net.annulus.degree + 1;
+        let width = net.annulus().degree + 1;
         let coordinates = net.coordinates(PatchIndex { sector, p, q }, &conversion);
         coordinates.map(|f| {
             let c = f.coefficients();
@@ -92,10 +111,12 @@ fn half_planes<S: Enclose>([x, y]: &Curve<S>) -> [bool; 4] {
 /// Checks the claim.
 pub fn winding<S: Enclose>(net: &PlaneNet<S>, evidence: &WindingEvidence) -> Winding {
     let mut parts = 0;
-    let number = quarters(net, evidence, &mut parts).and_then(|c| match net.fourier {
+    let closed = net.annulus().numbering.fan.is_closed();
+    let number = quarters(net, evidence, &mut parts).and_then(|(start, c)| match net.fourier {
         Some(fourier) => total(c, fourier, net.sectors()),
         // a closed curve turns by a whole number
-        None => total(c, 0, 1),
+        None if closed => total(c, 0, 1),
+        None => once(start, c, last_half_plane(net)?),
     });
     let status = match number {
         Some(1 | -1) => Status::Proven,
@@ -105,13 +126,14 @@ pub fn winding<S: Enclose>(net: &PlaneNet<S>, evidence: &WindingEvidence) -> Win
     Winding { status, number, parts }
 }
 
-/// The quarters by which the half-planes turn along the boundary of sector 0.
-fn quarters<S: Enclose>(net: &PlaneNet<S>, trees: &[Subdivision], parts: &mut usize) -> Option<i64> {
+/// The half-plane at the beginning of the boundary of sector 0, or of all sectors, and the quarters by which
+/// half-planes turn along it.
+fn quarters<S: Enclose>(net: &PlaneNet<S>, trees: &[Subdivision], parts: &mut usize) -> Option<(i64, i64)> {
     let curves = boundary(net);
     if curves.len() != trees.len() {
         return None;
     }
-    let (mut turned, mut current, mut lost) = (0, None, false);
+    let (mut turned, mut start, mut current, mut lost) = (0, None, None, false);
     for (curve, tree) in curves.into_iter().zip(trees) {
         let walk = tree.walk(curve, &cut, &mut |part| {
             let open = half_planes(part);
@@ -122,7 +144,7 @@ fn quarters<S: Enclose>(net: &PlaneNet<S>, trees: &[Subdivision], parts: &mut us
             };
             match (step, current) {
                 (None, _) => lost = true,
-                (Some(at), None) => current = Some(at),
+                (Some(at), None) => (start, current) = (Some(at as i64), Some(at)),
                 (Some(step), Some(at)) => {
                     current = Some((at + step) % 4);
                     turned += if step == 3 { -1 } else { step as i64 };
@@ -131,7 +153,77 @@ fn quarters<S: Enclose>(net: &PlaneNet<S>, trees: &[Subdivision], parts: &mut us
         })?;
         *parts += walk.cells;
     }
-    (!lost).then_some(turned)
+    start.filter(|_| !lost).map(|start| (start, turned))
+}
+
+/// 1 or -1 if the boundary of an open fan winds once, see the module page: it begins in the half-plane
+/// `start`, turns by `c` half-planes, and ends in the half-plane `last`.
+fn once(start: i64, c: i64, last: i64) -> Option<i64> {
+    let winds = |from: std::ops::RangeInclusive<i64>| {
+        let mut begins = from.filter(|a| (a - start).rem_euclid(4) == 0);
+        begins.any(|a| (a + c - last).abs() <= 1)
+    };
+    match (winds(last - 3..=last - 1), winds(last + 1..=last + 3)) {
+        (true, false) => Some(1),
+        (false, true) => Some(-1),
+        _ => None,
+    }
+}
+
+/// The half-plane in which the last spoke of an open fan lies, outside of which the first one lies; `None` if
+/// there is none, or they are not known to be simple curves.
+fn last_half_plane<S: Enclose>(net: &PlaneNet<S>) -> Option<i64> {
+    let conversion = to_bernstein::<S>(net.annulus().degree);
+    let width = net.annulus().degree + 1;
+    let steps = || net.annulus().inner..2 * net.annulus().inner;
+    let sectors = net.sectors();
+    let spoke = |last: bool| -> Vec<Curve<S>> {
+        let patch = |step: usize| match last {
+            false => PatchIndex {
+                sector: 0,
+                p: step,
+                q: 0,
+            },
+            true => PatchIndex {
+                sector: sectors - 1,
+                p: 0,
+                q: step,
+            },
+        };
+        let side = |f: Polynomial<S>| -> Vec<S> {
+            let c = f.coefficients().iter().copied();
+            if last {
+                c.step_by(width).collect()
+            } else {
+                c.take(width).collect()
+            }
+        };
+        let curve = |step: usize| net.coordinates(patch(step), &conversion).map(side);
+        steps().map(curve).collect()
+    };
+    // the coordinate towards a quarter
+    let towards = |curve: &Curve<S>, quarter: usize| -> Vec<Interval> {
+        let sign = Interval::integer(if quarter < 2 { 1 } else { -1 });
+        curve[quarter % 2].iter().map(|c| sign * c.enclosure()).collect()
+    };
+    let lies = |curves: &[Curve<S>], quarter: usize| {
+        curves.iter().all(|curve| {
+            let values = towards(curve, quarter);
+            let inside = values.iter().all(|c| c.certainly_positive());
+            inside && values.windows(2).all(|pair| pair[0].certainly_lt(pair[1]))
+        })
+    };
+    let beyond = |curves: &[Curve<S>], quarter: usize| {
+        let mut values = curves.iter().flat_map(|curve| towards(curve, quarter));
+        values.all(|c| c.hi() <= 0.0)
+    };
+    let (first, last) = (spoke(false), spoke(true));
+    if !(0..4).any(|quarter| lies(&first, quarter)) {
+        return None;
+    }
+    (0..4)
+        .find(|&quarter| lies(&last, quarter) && beyond(&first, quarter))
+        .map(|quarter| quarter as i64)
 }
 
 /// `k + n j` for the integer j with `c/4 - 1/2 < k/n + j < c/4 + 1/2`.
@@ -148,7 +240,23 @@ fn total(c: i64, k: usize, n: usize) -> Option<i64> {
 
 #[cfg(test)]
 mod tests {
-    use super::total;
+    use super::{once, total};
+
+    #[test]
+    fn open_boundaries_wind_once_between_their_ends() {
+        // from the direction 0 to the direction 2 over 1, and the other way round
+        assert_eq!(
+            (once(0, 2, 2), once(0, 1, 2), once(1, 1, 2)),
+            (Some(1), Some(1), Some(1))
+        );
+        assert_eq!((once(0, -2, 2), once(3, -1, 2)), (Some(-1), Some(-1)));
+        // three quarters, and all of a turn but a sliver
+        assert_eq!((once(0, 3, 3), once(2, 3, 1)), (Some(1), Some(1)));
+        // a turn more than that
+        assert_eq!((once(0, 6, 2), once(0, 5, 1), once(0, -6, 2)), (None, None, None));
+        // a quarter: from 0 to 1 directly, or three quarters backwards
+        assert_eq!((once(0, 1, 1), once(0, -3, 1)), (Some(1), Some(-1)));
+    }
 
     #[test]
     fn sectors_add_up_to_whole_turns() {

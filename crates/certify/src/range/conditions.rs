@@ -172,9 +172,9 @@ mod tests {
                     f2: f2.mid(),
                     f3: (valence != 4).then_some(f3.mid()),
                 };
-                let (annulus, blocks) = problem_of(&input, valence).unwrap();
-                let evidence = find::evidence(&blocks);
-                let spectrum = Spectrum::new(annulus, blocks, &evidence);
+                let whole = problem_of(&input, valence).unwrap().unwrap();
+                let evidence = find::evidence(&whole.blocks);
+                let spectrum = Spectrum::new(whole, &evidence);
                 let mu = number(point.plane.mu()).mid();
                 let mut moduli: Vec<f64> = spectrum.entries.iter().map(|e| e.value.modulus().mid()).collect();
                 moduli.sort_by(|a, b| b.total_cmp(a));

@@ -1,12 +1,12 @@
 //! Fourier blocks of interval matrices, without the constant vector and what no patch depends on, and their
 //! components.
 
-use super::MAX_BLOCK;
 use super::graph::components;
+use super::{MAX_BLOCK, MAX_POINTS};
 use crate::linear::quotient;
-use crate::{Error, Interval};
+use crate::{Error, Interval, Patches};
 use eigenring_scheme::{Level, Numbering, Site};
-use eigenring_spectral::{Annulus, Block as Fourier, Matrix, fourier_block, local_matrix};
+use eigenring_spectral::{Block as Fourier, Matrix, fourier_block, local_matrix};
 
 /// One Fourier block.
 #[derive(Clone, Debug)]
@@ -55,6 +55,9 @@ pub enum Place {
     Parts,
     /// The points themselves: for rules that differ from sector to sector.
     Points,
+    /// The same without further vectors than the constant one: eigenvalues are those of the points, vectors
+    /// are classes modulo these.
+    Quotient,
 }
 
 /// A block as it comes from the rules.
@@ -64,6 +67,8 @@ struct Whole {
     matrix: Matrix<Interval>,
     /// The constant vector, if it belongs to the block.
     constant: Option<Vec<bool>>,
+    /// Eigenvectors that are known beside it, and independent.
+    known: Vec<Vec<Interval>>,
     /// The site of each unknown.
     sites: Vec<Site>,
 }
@@ -75,6 +80,7 @@ impl Block {
             place,
             matrix: all,
             constant,
+            known,
             sites,
         } = whole;
         // an unknown that no patch depends on, at no level, has no influence on the surface
@@ -84,7 +90,7 @@ impl Block {
         let position = constant
             .as_ref()
             .and_then(|constant| kept.iter().position(|&unknown| constant[unknown]));
-        let (matrix, divided) = match (position, constant) {
+        let (mut matrix, divided) = match (position, constant) {
             (Some(position), Some(constant)) => {
                 let ones: Vec<Interval> = kept.iter().map(|&i| Interval::point(f64::from(constant[i]))).collect();
                 let matrix = quotient(&of_kept(&kept), &ones, position);
@@ -94,6 +100,11 @@ impl Block {
             }
             _ => (of_kept(&kept), None),
         };
+        if let Some(Divided { pivot, .. }) = &divided {
+            let modulo = |vector: Vec<Interval>| kept.iter().map(|&unknown| vector[unknown] - vector[*pivot]).collect();
+            let known = known.into_iter().map(modulo).collect();
+            (matrix, kept) = without(matrix, kept, known);
+        }
         let (components, reads) = components(matrix.rows(), |i, j| !matrix[(i, j)].is_zero());
         Block {
             index,
@@ -132,6 +143,31 @@ impl Block {
     }
 }
 
+/// What is left of a matrix and its unknowns when eigenvectors are divided out, one after the other. One that
+/// is not known to have an entry other than zero stays in.
+fn without(
+    mut matrix: Matrix<Interval>,
+    mut unknowns: Vec<usize>,
+    mut vectors: Vec<Vec<Interval>>,
+) -> (Matrix<Interval>, Vec<usize>) {
+    while let Some(vector) = vectors.pop() {
+        // the innermost one reads the fewest, and the quotient couples everybody with what it reads
+        let Some(pivot) = vector.iter().position(|x| x.certainly_nonzero()) else {
+            continue;
+        };
+        let mut scaled: Vec<Interval> = vector.iter().map(|&x| x / vector[pivot]).collect();
+        scaled[pivot] = Interval::point(1.0);
+        matrix = quotient(&matrix, &scaled, pivot);
+        unknowns.remove(pivot);
+        for other in &mut vectors {
+            let by = other[pivot];
+            other.iter_mut().zip(&scaled).for_each(|(x, &s)| *x -= by * s);
+            other.remove(pivot);
+        }
+    }
+    (matrix, unknowns)
+}
+
 /// The unknowns that the marked ones depend on, themselves included.
 fn depended_on(matrix: &Matrix<Interval>, marked: &[bool]) -> Vec<bool> {
     let mut reached = marked.to_vec();
@@ -148,36 +184,40 @@ fn depended_on(matrix: &Matrix<Interval>, marked: &[bool]) -> Vec<bool> {
 }
 
 /// The sites of the annulus's control points, in whatever sector.
-fn controls(annulus: &Annulus) -> Vec<Site> {
-    let all = annulus.numbering.sites();
-    let sectors = 0..annulus.numbering.fan.sectors();
-    let patches = sectors.flat_map(|sector| annulus.patches(sector));
-    let mut indices: Vec<usize> = patches.flat_map(|patch| annulus.control(patch)).collect();
+fn controls(patches: &Patches) -> Vec<Site> {
+    let all = patches.numbering().sites();
+    let sectors = 0..patches.numbering().fan.sectors();
+    let places = sectors.flat_map(|sector| patches.annulus.patches(sector));
+    let mut indices: Vec<usize> = places.flat_map(|patch| patches.control(patch)).collect();
     indices.sort_unstable();
     indices.dedup();
     indices.into_iter().map(|index| all[index]).collect()
 }
 
-/// The blocks of a level on the rings of an annulus: of index 0 to N/2, or the one dense matrix.
+/// The blocks of a level on the rings of an annulus: of index 0 to N/2, or the one dense matrix, without the
+/// given coordinates of the points if these are eigenvectors.
 ///
 /// # Errors
-/// [`Error::Spectral`] if the rings are not closed, [`Error::Size`] beyond [`MAX_BLOCK`] unknowns.
-pub fn blocks(level: &Level<Interval>, annulus: &Annulus) -> Result<Vec<Block>, Error> {
-    let numbering = annulus.numbering;
+/// [`Error::Spectral`] if the rings are not closed, [`Error::Size`] beyond [`MAX_BLOCK`] unknowns, or
+/// [`MAX_POINTS`] of the undivided matrix.
+pub fn blocks(
+    level: &Level<Interval>,
+    patches: &Patches,
+    coordinates: Option<&[Vec<Interval>; 2]>,
+) -> Result<Vec<Block>, Error> {
+    let numbering = patches.numbering();
     let symmetric = level.is_rotation_symmetric();
-    let size = if symmetric {
-        numbering.sector_points() * if level.has_mirror() { 1 } else { 2 }
+    let (size, maximum) = if symmetric {
+        let parts = if level.has_mirror() { 1 } else { 2 };
+        (numbering.sector_points() * parts, MAX_BLOCK)
     } else {
-        numbering.count()
+        (numbering.count(), MAX_POINTS)
     };
-    if size > MAX_BLOCK {
-        return Err(Error::Size {
-            size,
-            maximum: MAX_BLOCK,
-        });
+    if size > maximum {
+        return Err(Error::Size { size, maximum });
     }
     // orbits of the points that are read: a pair of mirror images shares its two unknowns
-    let mut read: Vec<Site> = controls(annulus).into_iter().map(|site| level.orbit(site)).collect();
+    let mut read: Vec<Site> = controls(patches).into_iter().map(|site| level.orbit(site)).collect();
     read.sort_unstable();
     read.dedup();
     let visible = |sites: &[Site]| {
@@ -189,9 +229,13 @@ pub fn blocks(level: &Level<Interval>, annulus: &Annulus) -> Result<Vec<Block>, 
     if !symmetric {
         let whole = Whole {
             index: 0,
-            place: Place::Points,
+            place: match coordinates {
+                None => Place::Points,
+                Some(_) => Place::Quotient,
+            },
             matrix: local_matrix(level, numbering.rings)?,
             constant: Some(vec![true; numbering.count()]),
+            known: coordinates.map_or(Vec::new(), |parts| parts.to_vec()),
             sites: numbering.sites(),
         };
         let visible = visible(&whole.sites);
@@ -232,6 +276,7 @@ fn whole_block(level: &Level<Interval>, numbering: Numbering, index: usize) -> R
                 place: Place::Parts,
                 matrix: doubled,
                 constant: None,
+                known: Vec::new(),
                 sites,
             });
         }
@@ -244,6 +289,7 @@ fn whole_block(level: &Level<Interval>, numbering: Numbering, index: usize) -> R
         place,
         matrix,
         constant,
+        known: Vec::new(),
         sites,
     })
 }

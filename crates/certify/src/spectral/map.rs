@@ -19,10 +19,15 @@ pub type Net = Vec<Complex<Interval>>;
 /// it is the solution of `(value - S_dd) v_d = sum_e S_de v_e` over the components e before d. `value` may be
 /// a sharper enclosure of the entry's eigenvalue.
 pub fn modulo_constants(block: &Block, entry: &Entry, value: Interval) -> Option<Vec<Interval>> {
-    if block.place == Place::Parts {
+    if matches!(block.place, Place::Parts | Place::Quotient) {
         return None;
     }
-    let reduced = on_kept(block, entry, value)?;
+    within(block, entry, value, &|_| true)
+}
+
+/// The same on some components, of which the entry's is one and which read no others; zero elsewhere.
+fn within(block: &Block, entry: &Entry, value: Interval, wanted: &dyn Fn(usize) -> bool) -> Option<Vec<Interval>> {
+    let reduced = on_kept(block, entry, value, wanted)?;
     let mut vector = vec![Interval::point(0.0); block.size];
     for (&unknown, x) in block.kept.iter().zip(reduced) {
         vector[unknown] = x;
@@ -30,14 +35,14 @@ pub fn modulo_constants(block: &Block, entry: &Entry, value: Interval) -> Option
     Some(vector)
 }
 
-fn on_kept(block: &Block, entry: &Entry, value: Interval) -> Option<Vec<Interval>> {
+fn on_kept(block: &Block, entry: &Entry, value: Interval, wanted: &dyn Fn(usize) -> bool) -> Option<Vec<Interval>> {
     let zero = Interval::point(0.0);
     let mut vector = vec![zero; block.matrix.rows()];
     for (&unknown, &x) in block.components[entry.component].iter().zip(entry.vector.as_ref()?) {
         vector[unknown] = x;
     }
     for (component, members) in block.components.iter().enumerate() {
-        if !block.reads[component].contains(&entry.component) {
+        if !(wanted(component) && block.reads[component].contains(&entry.component)) {
             continue;
         }
         let right: Vec<Interval> = members
@@ -62,7 +67,19 @@ fn on_kept(block: &Block, entry: &Entry, value: Interval) -> Option<Vec<Interval
 /// The eigenvector of a simple real eigenvalue on all unknowns of its block; see `modulo_constants`. `None`
 /// also if the constant vector's eigenvalue 1 was not proven to be another one.
 pub fn eigenvector(block: &Block, entry: &Entry, value: Interval) -> Option<Vec<Interval>> {
-    let mut vector = modulo_constants(block, entry, value)?;
+    with_constants(block, modulo_constants(block, entry, value)?, value)
+}
+
+/// The eigenvector on some components alone, which with the centre read no others.
+pub fn eigenvector_within(block: &Block, entry: &Entry, wanted: &[usize]) -> Option<Vec<Interval>> {
+    if block.place != Place::Points {
+        return None;
+    }
+    let vector = within(block, entry, entry.value.re, &|component| wanted.contains(&component))?;
+    with_constants(block, vector, entry.value.re)
+}
+
+fn with_constants(block: &Block, mut vector: Vec<Interval>, value: Interval) -> Option<Vec<Interval>> {
     let Some(divided) = &block.divided else {
         return Some(vector);
     };
@@ -148,7 +165,7 @@ impl Spectrum {
     pub fn net(&self, entry: &Entry, value: Interval) -> Option<Net> {
         let block = self.block(entry.index)?;
         let unknowns = eigenvector(block, entry, value)?;
-        let numbering = self.annulus.numbering;
+        let numbering = self.patches.numbering();
         let first = *unknowns.get(unknowns.len() - numbering.sector_points())?;
         let sign = if first.certainly_negative() { -1.0 } else { 1.0 };
         let unknowns: Vec<Interval> = unknowns.into_iter().map(|x| Interval::point(sign) * x).collect();

@@ -6,9 +6,9 @@ use eigenring_spectral::LocalSystem;
 fn spectrum(spec: &str, valence: usize) -> Spectrum {
     let spec: Spec = spec.parse().unwrap();
     let input = Input::from_spec(&spec, valence).unwrap();
-    let (annulus, blocks) = problem_of(&input, valence).unwrap();
-    let evidence = find::evidence(&blocks);
-    Spectrum::new(annulus, blocks, &evidence)
+    let problem = problem_of(&input, valence).unwrap().unwrap();
+    let evidence = find::evidence(&problem.blocks);
+    Spectrum::new(problem, &evidence)
 }
 
 /// Every eigenvalue found by QR iterations is accounted for, with its multiplicity.
@@ -25,7 +25,7 @@ fn spectra_agree_with_those_in_doubles() {
         for valence in [3, 4, 5, 6, 9, 12] {
             let found = spectrum(spec, valence);
             let scheme = spec.parse::<Spec>().unwrap().scheme::<f64>(valence).unwrap();
-            let system = LocalSystem::new(scheme.limit(), found.annulus.numbering.rings).unwrap();
+            let system = LocalSystem::new(scheme.limit(), found.patches.numbering().rings).unwrap();
             for (index, block) in system.blocks().iter().enumerate() {
                 let entries = || found.entries.iter().filter(|entry| entry.index == index);
                 let bounds = found.bounds.iter().filter(|bound| bound.index == index);
@@ -62,7 +62,7 @@ fn eigenvectors_are_those_of_the_modes_and_sharp() {
         for valence in [3, 5, 8] {
             let found = spectrum(spec, valence);
             let scheme = spec.parse::<Spec>().unwrap().scheme::<f64>(valence).unwrap();
-            let system = LocalSystem::new(scheme.limit(), found.annulus.numbering.rings).unwrap();
+            let system = LocalSystem::new(scheme.limit(), found.patches.numbering().rings).unwrap();
             for index in [0, 1, 2] {
                 let Some(entry) = found
                     .entries
@@ -127,9 +127,9 @@ fn nets_are_spread_as_by_the_rules() {
 #[test]
 fn false_evidence_costs_sharpness_and_nothing_else() {
     let input = Input::from_spec(&"tension:order=6".parse().unwrap(), 5).unwrap();
-    let (annulus, blocks) = problem_of(&input, 5).unwrap();
-    let mut evidence = find::evidence(&blocks);
-    let honest = Spectrum::new(annulus, blocks.clone(), &evidence);
+    let problem = problem_of(&input, 5).unwrap().unwrap();
+    let mut evidence = find::evidence(&problem.blocks);
+    let honest = Spectrum::new(problem.clone(), &evidence);
     for peel in evidence.iter_mut().flatten() {
         for (value, vector) in &mut peel.pairs {
             *value += 0.3;
@@ -139,10 +139,10 @@ fn false_evidence_costs_sharpness_and_nothing_else() {
             rest.radius *= 0.5;
         }
     }
-    let misled = Spectrum::new(annulus, blocks, &evidence);
+    let misled = Spectrum::new(problem.clone(), &evidence);
     // what is still claimed is compatible with the truth
     let largest = |spectrum: &Spectrum| spectrum.largest_other(&[]).unwrap().0.hi();
     assert!(largest(&misled) >= largest(&honest) * (1.0 - 1e-9));
-    let none = Spectrum::new(annulus, misled.blocks.clone(), &Vec::new());
+    let none = Spectrum::new(problem, &Vec::new());
     assert!(largest(&none) >= largest(&honest) * (1.0 - 1e-9));
 }
