@@ -2,7 +2,7 @@
 //!
 //! Valences stand in columns; the rows are schemes, or lambdas in ascending order. All nets have the same
 //! number of rings and are drawn to the same size, so that pictures show how points crowd toward the centre
-//! (small lambda) or away from it.
+//! (small lambda) or away from it; where many sectors crowd, radii are logarithmic, which the title says.
 
 use super::grid::{Grid, NARROWEST, narrowest};
 use super::nets::Net;
@@ -34,18 +34,23 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
     });
     let columns: Vec<Vec<Subject>> = columns.collect::<Result<_, _>>()?;
     let rows = columns.iter().map(Vec::len).max().unwrap_or(0);
-    let narrowest = narrowest(columns.iter().flatten().map(Subject::full_title), NARROWEST);
+    let of = |subject: &Subject| Net::new(&subject.scheme, RINGS);
+    let nets = columns.iter().map(|subjects| subjects.iter().map(of).collect());
+    let nets: Vec<Vec<Net>> = nets.collect::<Result<_, Error>>()?;
+    let each = || columns.iter().flatten().zip(nets.iter().flatten());
+    let title = |subject: &Subject, net: &Net| subject.full_title() + net.readable().1;
+    let narrowest = narrowest(each().map(|(subject, net)| title(subject, net)), NARROWEST);
     let grid = Grid::new(rows, columns.len(), inputs.width, 0.0, narrowest);
     let height = grid.height(grid.across.min(SIDE));
     let mut figure = Figure::new(inputs.width, height, "Natural configurations");
     let mut table = Net::table(&["scheme", "valence", "lambda"]);
-    for (column, subjects) in columns.iter().enumerate() {
-        for (row, subject) in subjects.iter().enumerate() {
-            let net = Net::new(&subject.scheme, RINGS)?;
+    for (column, (subjects, nets)) in columns.iter().zip(&nets).enumerate() {
+        for (row, (subject, net)) in subjects.iter().zip(nets).enumerate() {
             let of = [subject.name.as_str().into(), subject.valence.into(), net.lambda.into()];
             net.push(&mut table, &of);
             let (at_row, at_column) = grid.place(row, column);
-            figure = figure.panel(at_row, at_column, Panel::new(net.chart()).title(subject.full_title()));
+            let panel = Panel::new(net.readable().0.chart()).title(title(subject, net));
+            figure = figure.panel(at_row, at_column, panel);
         }
     }
     Ok(vec![Drawing::of(&ENTRY, figure, table)])

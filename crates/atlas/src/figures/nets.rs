@@ -80,6 +80,39 @@ impl Net {
         coordinates.fold(0.0, f64::max)
     }
 
+    /// The net as it can be read, and what a title adds if that is not the net itself: where many sectors
+    /// crowd around the centre, radii become `log(1 + r/r_1)`, with r_1 the smallest of ring 1, in proportion
+    /// to the rim; edges join their points as before.
+    pub fn readable(&self) -> (Net, &'static str) {
+        let around = |ring: usize| self.points.iter().filter(move |point| point.0 == ring);
+        let radii = around(1).map(|(_, [x, y])| x.hypot(*y));
+        let first = radii.fold(f64::INFINITY, f64::min);
+        let crowded = around(1).count() > 2 * LARGE && first < CROWDED * self.radius();
+        if !(crowded && first > 0.0) {
+            return (self.clone(), "");
+        }
+        let rim = (1.0 + self.radius() / first).ln();
+        let place = |[x, y]: [f64; 2]| {
+            let r = x.hypot(y);
+            let scale = if r > 0.0 {
+                (1.0 + r / first).ln() / (rim * r)
+            } else {
+                1.0
+            };
+            [scale * x, scale * y]
+        };
+        let net = Net {
+            points: self.points.iter().map(|&(ring, point)| (ring, place(point))).collect(),
+            faces: self
+                .faces
+                .iter()
+                .map(|(ring, corners)| (*ring, corners.iter().map(|&corner| place(corner)).collect()))
+                .collect(),
+            ..*self
+        };
+        (net, ", log radii")
+    }
+
     /// A table of nets: columns that tell them apart, then ring and coordinates.
     pub fn table(keys: &[&str]) -> Table {
         Table::new(keys.iter().copied().chain(["ring", "x", "y"]))
@@ -157,6 +190,11 @@ impl Net {
     }
 }
 
+/// The largest valence whose nets are always drawn in proportion, and the radius of ring 1, relative to the
+/// rim, below which larger ones are not.
+const LARGE: usize = 12;
+const CROWDED: f64 = 0.3;
+
 /// The width of the square in the figures of many nets, in millimetres.
 const USUAL: f64 = 36.0;
 /// The usual radius of dots and the least one, and how much of the way to the next point one may take.
@@ -190,6 +228,37 @@ mod tests {
             .map(|(_, face)| (face[0][0] - face[2][0]).hypot(face[0][1] - face[2][1]).powi(2) / 2.0)
             .sum();
         assert!((area - 36.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn crowded_rings_are_spread_by_logarithms() {
+        let scheme = |spec: &str, n| {
+            spec.parse::<eigenring_scheme::Spec>()
+                .unwrap()
+                .scheme::<f64>(n)
+                .unwrap()
+        };
+        for (spec, valence, crowded) in [
+            ("lambda:lambda=0.35", 20, true),
+            ("lambda:lambda=0.35", 12, false),
+            ("lambda:optimal", 20, false),
+        ] {
+            let net = Net::new(&scheme(spec, valence), 3).unwrap();
+            let (drawn, title) = net.readable();
+            assert_eq!(!title.is_empty(), crowded, "{spec} {valence}");
+            assert!(crowded || drawn.points == net.points);
+            let polar = |net: &Net, i: usize| {
+                let [x, y] = net.points[i].1;
+                (x.hypot(y), y.atan2(x))
+            };
+            for i in 1..net.points.len() {
+                let ((r, angle), (radius, same)) = (polar(&net, i), polar(&drawn, i));
+                assert!(
+                    (angle - same).abs() < 1e-12 && (!crowded || radius >= r / net.radius() - 1e-9),
+                    "{spec} {i}"
+                );
+            }
+        }
     }
 
     #[test]
