@@ -7,7 +7,7 @@
 //! order, preceded by the centre if k = 0 and the centre is a point. For levels with mirror symmetry the
 //! unknowns are the real ones of [`FourierNet`] and `S_k` is a real matrix.
 
-use crate::Error;
+use crate::{Error, Extended};
 use eigenring_scheme::{Complex, DenseNet, FourierNet, Level, Net, Numbering, Plan, Scalar, Site, refine};
 
 /// A dense matrix, stored by rows.
@@ -50,6 +50,15 @@ impl<T: Copy> Matrix<T> {
         &self.entries[row * self.columns..(row + 1) * self.columns]
     }
 
+    pub(crate) fn row_mut(&mut self, row: usize) -> &mut [T] {
+        &mut self.entries[row * self.columns..(row + 1) * self.columns]
+    }
+
+    /// A row, and all that follow.
+    pub(crate) fn row_and_rest(&mut self, row: usize) -> (&mut [T], &mut [T]) {
+        self.entries[row * self.columns..].split_at_mut(self.columns)
+    }
+
     /// The entries by rows.
     pub fn entries(&self) -> &[T] {
         &self.entries
@@ -69,6 +78,12 @@ impl<T> std::ops::Index<(usize, usize)> for Matrix<T> {
     type Output = T;
     fn index(&self, (row, column): (usize, usize)) -> &T {
         &self.entries[row * self.columns + column]
+    }
+}
+
+impl<T> std::ops::IndexMut<(usize, usize)> for Matrix<T> {
+    fn index_mut(&mut self, (row, column): (usize, usize)) -> &mut T {
+        &mut self.entries[row * self.columns + column]
     }
 }
 
@@ -95,6 +110,17 @@ impl<S: Scalar + Copy> Block<S> {
         match self {
             Block::Real(matrix) => matrix.map(|entry| (entry, S::zero())),
             Block::Complex(matrix) => matrix.clone(),
+        }
+    }
+}
+
+impl Block<f64> {
+    /// The same numbers in more precision.
+    pub(crate) fn lifted(&self) -> Block<Extended> {
+        let lift = Extended::exact;
+        match self {
+            Block::Real(matrix) => Block::Real(matrix.map(lift)),
+            Block::Complex(matrix) => Block::Complex(matrix.map(|(re, im)| (lift(re), lift(im)))),
         }
     }
 }
@@ -139,7 +165,7 @@ pub fn fourier_blocks<S: Scalar + Copy>(level: &Level<S>, rings: usize) -> Resul
 
 /// What the Fourier blocks of a level share: the plan by which one point of each orbit is made, from which
 /// the rows of all its unknowns follow.
-struct Assembly<S> {
+pub(crate) struct Assembly<S> {
     numbering: Numbering,
     mirror: bool,
     orbits: Vec<Site>,
@@ -147,7 +173,7 @@ struct Assembly<S> {
 }
 
 impl<S: Scalar + Copy> Assembly<S> {
-    fn new(level: &Level<S>, rings: usize) -> Result<Self, Error> {
+    pub fn new(level: &Level<S>, rings: usize) -> Result<Self, Error> {
         if !level.is_rotation_symmetric() {
             return Err(Error::NotSymmetric);
         }
@@ -166,7 +192,7 @@ impl<S: Scalar + Copy> Assembly<S> {
         })
     }
 
-    fn block(&self, index: usize) -> Result<Block<S>, Error> {
+    pub fn block(&self, index: usize) -> Result<Block<S>, Error> {
         let net = FourierNet::new(self.numbering, index, self.mirror)?;
         let values = self.plan.run(&net)?;
         let rows = net.rows().into_iter().map(|site| {

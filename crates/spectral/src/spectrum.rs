@@ -1,8 +1,10 @@
 //! The eigenvalues of a local system, with Fourier indices and multiplicities.
 
 use crate::eigen::order;
-use crate::{Block, BlockEigenvalue, Error, LocalSystem};
-use eigenring_scheme::Complex;
+use crate::matrix::Assembly;
+use crate::repeated::{Precision, Repeated, repeated};
+use crate::{Block, BlockEigenvalue, Error, Extended, LocalSystem, local_matrix};
+use eigenring_scheme::{Complex, Level};
 
 /// An eigenvalue of the local matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,8 +16,8 @@ pub struct Eigenvalue {
     pub fourier: Option<usize>,
     /// The algebraic multiplicity in the whole local matrix: both blocks counted.
     pub multiplicity: usize,
-    /// The number of independent eigenvectors in the whole local matrix; below the multiplicity if defective.
-    /// `None` where it was not asked for.
+    /// The number of independent eigenvectors in the whole local matrix, never above the multiplicity, and below
+    /// it if defective. `None` where it was not asked for.
     pub geometric: Option<usize>,
 }
 
@@ -49,42 +51,55 @@ pub struct Spectrum {
     pub eigenvalues: Vec<Eigenvalue>,
 }
 
+/// Blocks of more unknowns are decomposed in doubles: beyond, 400 take some ten seconds.
+const MAX_EXTENDED: usize = 400;
+
 impl LocalSystem {
-    /// All eigenvalues with their algebraic and geometric multiplicities.
+    /// All eigenvalues with their algebraic and geometric multiplicities, as far as a matrix of doubles tells:
+    /// what its rounding could make of one eigenvalue is one. [`LocalSystem::spectrum_of`] knows more.
     ///
     /// # Errors
     /// [`Error::Decomposition`] if an entry is not finite or an iteration fails.
     pub fn spectrum(&self) -> Result<Spectrum, Error> {
-        self.listed(|block, value| {
-            // a cluster that rounding keeps from being singular has at least one vector all the same
-            block.nullity(value).map(|nullity| Some(nullity.max(1)))
-        })
+        self.listed(|_, block| multiplicities(&block.lifted(), block, Precision::Double))
     }
 
-    /// All eigenvalues with their algebraic multiplicities alone: several times as fast as
-    /// [`LocalSystem::spectrum`] where many are repeated.
+    /// All eigenvalues with their algebraic and geometric multiplicities, from the rules of the same level in
+    /// [`Extended`] numbers.
+    ///
+    /// # Errors
+    /// As [`LocalSystem::spectrum`]; those of [`fourier_blocks`](crate::fourier_blocks).
+    pub fn spectrum_of(&self, level: &Level<Extended>) -> Result<Spectrum, Error> {
+        let rings = self.numbering().rings;
+        if !self.symmetric() {
+            let matrix = Block::Real(local_matrix(level, rings)?);
+            return self.listed(|_, block| multiplicities(&matrix, block, Precision::Extended));
+        }
+        let assembly = Assembly::new(level, rings)?;
+        self.listed(|index, block| multiplicities(&assembly.block(index)?, block, Precision::Extended))
+    }
+
+    /// All eigenvalues with their algebraic multiplicities alone, in doubles, those within
+    /// [`EQUAL`](crate::EQUAL) of each other as one: for the leading eigenvalues, a hundred times as fast as
+    /// [`LocalSystem::spectrum`].
     ///
     /// # Errors
     /// [`Error::Decomposition`] if an entry is not finite or an iteration fails.
     pub fn eigenvalues(&self) -> Result<Spectrum, Error> {
-        self.listed(|_, _| Ok(None))
+        self.listed(|_, block| {
+            let known = |e: BlockEigenvalue| (e.value, e.multiplicity, (e.multiplicity == 1).then_some(1));
+            Ok(block.eigenvalues()?.into_iter().map(known).collect())
+        })
     }
 
-    /// The eigenvalues; `geometric` is asked for the number of eigenvectors of a repeated one.
-    fn listed(
-        &self,
-        geometric: impl Fn(&Block<f64>, Complex<f64>) -> Result<Option<usize>, Error>,
-    ) -> Result<Spectrum, Error> {
+    /// The eigenvalues of all blocks; `of` gives those of one with algebraic and geometric multiplicity.
+    fn listed(&self, of: impl Fn(usize, &Block<f64>) -> Result<Vec<Multiplicities>, Error>) -> Result<Spectrum, Error> {
         let n = self.valence();
         let mut eigenvalues = Vec::new();
         for (k, block) in self.blocks().iter().enumerate() {
             let twice = self.symmetric() && k != 0 && 2 * k != n;
             let copies = 1 + usize::from(twice);
-            for BlockEigenvalue { value, multiplicity } in block.eigenvalues()? {
-                let geometric = match multiplicity {
-                    1 => Some(1),
-                    _ => geometric(block, value)?,
-                };
+            for (value, multiplicity, geometric) in of(k, block)? {
                 eigenvalues.push(Eigenvalue {
                     value,
                     fourier: self.symmetric().then_some(k),
@@ -104,6 +119,30 @@ impl LocalSystem {
         }
         Ok(Spectrum { eigenvalues })
     }
+}
+
+/// An eigenvalue of a block with its algebraic and, where it is known, its geometric multiplicity.
+type Multiplicities = (Complex<f64>, usize, Option<usize>);
+
+/// Those of a block, which is given in both precisions.
+fn multiplicities(
+    block: &Block<Extended>,
+    doubles: &Block<f64>,
+    precision: Precision,
+) -> Result<Vec<Multiplicities>, Error> {
+    if block.size() <= MAX_EXTENDED {
+        let known = |e: Repeated| (e.value, e.algebraic, Some(e.geometric));
+        return Ok(repeated(block, precision)?.into_iter().map(known).collect());
+    }
+    let mut known = Vec::new();
+    for BlockEigenvalue { value, multiplicity } in doubles.eigenvalues()? {
+        let geometric = match multiplicity {
+            1 => 1,
+            _ => doubles.nullity(value)?.clamp(1, multiplicity),
+        };
+        known.push((value, multiplicity, Some(geometric)));
+    }
+    Ok(known)
 }
 
 impl Spectrum {
