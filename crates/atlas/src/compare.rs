@@ -76,9 +76,12 @@ impl Row {
         let spanned = subdominant.is_some_and(|e| e.fourier.is_none_or(|k| k == 1));
         if affine && !spanned {
             let fourier = subdominant.and_then(|e| e.fourier).unwrap_or_default();
-            remarks.push(format!(
-                "the subdominant eigenvalue is of Fourier index {fourier}, not 1"
-            ));
+            let tie = if spectrum.stray().is_none() {
+                ", as large as that of index 1"
+            } else {
+                ", not 1"
+            };
+            remarks.push(format!("the subdominant eigenvalue is of Fourier index {fourier}{tie}"));
         }
         if subdominant.is_some_and(|e| e.value.1 != 0.0) {
             remarks.push("the subdominant eigenvalue is complex".to_owned());

@@ -54,6 +54,7 @@ pub mod compare;
 pub mod curvature;
 pub mod curve;
 pub mod difference;
+pub mod eigenvectors;
 mod error;
 pub mod figures;
 pub mod files;

@@ -24,6 +24,25 @@ pub struct LocalMatrix {
     pub matrix: Matrix<f64>,
 }
 
+/// An array in NumPy's format, version 1.0: little-endian doubles, the last index fastest.
+pub(crate) fn npy(shape: &[usize], entries: impl Iterator<Item = f64>) -> Vec<u8> {
+    let lengths: Vec<String> = shape.iter().map(usize::to_string).collect();
+    let mut header = format!(
+        "{{'descr': '<f8', 'fortran_order': False, 'shape': ({}), }}",
+        lengths.join(", ")
+    );
+    // the data start at a multiple of 64 bytes: 10 bytes of preamble, the header, a final newline
+    while (10 + header.len() + 1) % 64 != 0 {
+        header.push(' ');
+    }
+    header.push('\n');
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend((header.len() as u16).to_le_bytes());
+    bytes.extend(header.as_bytes());
+    bytes.extend(entries.flat_map(f64::to_le_bytes));
+    bytes
+}
+
 impl LocalMatrix {
     /// The matrix of a level of a scheme, by default the limit level, on so many rings; by default as many as
     /// [`Analysis::of_scheme`](crate::spectrum::Analysis::of_scheme) takes.
@@ -93,24 +112,10 @@ impl LocalMatrix {
         text
     }
 
-    /// NumPy's format, version 1.0: little-endian doubles by rows.
+    /// NumPy's format: the matrix by rows.
     pub fn npy(&self) -> Vec<u8> {
-        let matrix = &self.matrix;
-        let mut header = format!(
-            "{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}",
-            matrix.rows(),
-            matrix.columns()
-        );
-        // the data start at a multiple of 64 bytes: 10 bytes of preamble, the header, a final newline
-        while (10 + header.len() + 1) % 64 != 0 {
-            header.push(' ');
-        }
-        header.push('\n');
-        let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
-        bytes.extend((header.len() as u16).to_le_bytes());
-        bytes.extend(header.as_bytes());
-        bytes.extend(matrix.entries().iter().flat_map(|entry| entry.to_le_bytes()));
-        bytes
+        let shape = [self.matrix.rows(), self.matrix.columns()];
+        npy(&shape, self.matrix.entries().iter().copied())
     }
 
     /// Comma-separated values without header.

@@ -12,6 +12,7 @@ use crate::table::short;
 use eigenring_scheme::lambda::{Bounds, Domain, Member, Plane, Source, Untabulated};
 use eigenring_scheme::user::{Reading, UserScheme};
 use eigenring_scheme::{Centre, Corner, Definition, Scheme, Spec, registry};
+use eigenring_spectral::Extended;
 use eigenring_tune::sweep::{Options, Problem};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -265,6 +266,19 @@ impl SchemeName {
             return Ok(member.scheme(spec.to_string())?);
         }
         Ok(definition.around(corner)?)
+    }
+
+    /// The rules around a corner in numbers from which multiplicities can be told; `None` for a member of the
+    /// lambda-scheme, whose weights are results of rounding.
+    ///
+    /// # Errors
+    /// As [`SchemeName::around`].
+    pub fn extended(&self, corner: &Corner) -> Result<Option<Scheme<Extended>>, Error> {
+        let lambda = matches!(self, SchemeName::Spec(Spec::LambdaOptimal | Spec::Lambda { .. }));
+        if lambda && corner.is_plain() {
+            return Ok(None);
+        }
+        Ok(Some(self.definition(Reading::default())?.around(corner)?))
     }
 
     /// What the scheme has in the middle of its closed fans.

@@ -4,7 +4,7 @@
 use crate::error::Error;
 use crate::table::{Format, Record, Table, short};
 use eigenring_scheme::{Corner, Lattice, Scheme, Site};
-use eigenring_spectral::{Eigenvalue, LocalSystem, Matrix, Spectrum, Sufficient, outer};
+use eigenring_spectral::{Eigenvalue, Extended, LocalSystem, Matrix, Spectrum, Sufficient, outer};
 use serde_json::{Map, Value, json};
 
 /// The most rings that are taken for meant: a block of 64 rings has 4160 rows.
@@ -44,6 +44,8 @@ pub struct Analysis {
     pub corner: String,
     /// The matrix, in blocks where it has them.
     pub system: LocalSystem,
+    /// The level of refinement, counted from 0, and how many come before the limit level; unknown for a matrix.
+    pub level: Option<(usize, usize)>,
     /// The smallest closed number of rings, and the largest modulus of the eigenvalues outside of it; unknown
     /// for a matrix.
     pub closed: Option<(usize, f64)>,
@@ -60,7 +62,23 @@ impl Analysis {
     /// [`Error::Range`] for a number of rings that is not closed under refinement or beyond [`MAX_RINGS`];
     /// those of the decomposition.
     pub fn of_scheme(scheme: &Scheme<f64>, rings: Option<usize>, level: Option<usize>) -> Result<Self, Error> {
-        let level = level.map_or(scheme.limit(), |level| scheme.level(level));
+        Self::of_rules(scheme, None, rings, level)
+    }
+
+    /// The same with the rules in more precision too, from which multiplicities are told.
+    ///
+    /// # Errors
+    /// As [`Analysis::of_scheme`].
+    pub fn of_rules(
+        scheme: &Scheme<f64>,
+        extended: Option<&Scheme<Extended>>,
+        rings: Option<usize>,
+        level: Option<usize>,
+    ) -> Result<Self, Error> {
+        let leading = scheme.leading().len();
+        // all levels from the limit level on are the same
+        let number = level.map_or(leading, |level| level.min(leading));
+        let level = scheme.level(number);
         let closed = scheme.closed_rings()?;
         let (system, outer) = match rings {
             Some(rings) => (
@@ -72,11 +90,16 @@ impl Analysis {
                 (system, outer)
             }
         };
+        let spectrum = match extended {
+            Some(extended) => system.spectrum_of(extended.level(number))?,
+            None => system.spectrum()?,
+        };
         Ok(Analysis {
             name: scheme.name().to_owned(),
             corner: "closed".to_owned(),
-            spectrum: system.spectrum()?,
+            spectrum,
             system,
+            level: Some((number, leading)),
             closed: Some((closed, outer)),
         })
     }
@@ -87,13 +110,14 @@ impl Analysis {
     /// As [`Analysis::of_scheme`].
     pub fn of_corner(
         scheme: &Scheme<f64>,
+        extended: Option<&Scheme<Extended>>,
         corner: &Corner,
         rings: Option<usize>,
         level: Option<usize>,
     ) -> Result<Self, Error> {
         Ok(Analysis {
             corner: corner.to_string(),
-            ..Self::of_scheme(scheme, rings, level)?
+            ..Self::of_rules(scheme, extended, rings, level)?
         })
     }
 
@@ -109,6 +133,7 @@ impl Analysis {
             corner: "closed".to_owned(),
             spectrum: system.spectrum()?,
             system,
+            level: None,
             closed: None,
         })
     }
@@ -139,7 +164,31 @@ impl Analysis {
             };
             notes.push(format!("{count}, the smallest closed set has {closed}: {reason}"));
         }
+        if let Some((level, leading)) = self.level
+            && leading > 0
+        {
+            notes.push(match leading - level {
+                0 => format!(
+                    "the limit level, which governs continuity; {leading} levels, 0 to {}, lead to it",
+                    leading - 1
+                ),
+                _ => format!("a leading level; the limit level, which governs continuity, is {leading}"),
+            });
+        }
         if let Some(lambda) = self.spectrum.subdominant() {
+            if let Some(index) = self.spectrum.stray() {
+                notes.push(format!(
+                    "the subdominant eigenvalue {} is of Fourier index {index}, not 1: there is no characteristic map, and \
+                     neither s nor tangents have a meaning",
+                    short(lambda.modulus()),
+                ));
+            }
+            if lambda.value.1 != 0.0 {
+                notes.push(format!(
+                    "the subdominant eigenvalue is complex, of modulus {}",
+                    short(lambda.modulus())
+                ));
+            }
             // equal to the subdominant one, in any block
             let same = self.spectrum.eigenvalues.iter().filter(|e| e.is_close(lambda));
             for e in same.filter(|e| e.is_defective()) {
@@ -168,6 +217,7 @@ impl Analysis {
             .with("valence", self.system.valence())
             .with("lattice", lattice)
             .with("rings", numbering.rings)
+            .with("level", self.level.map(|(level, _)| level))
             .with("closed_rings", self.closed.map(|(closed, _)| closed))
             .with("outer", self.closed.map(|(_, outer)| outer))
             .with("points", numbering.count())
@@ -194,7 +244,7 @@ impl Analysis {
 
     /// The sizes of an eigenvalue's Jordan blocks, falling, such as "2+1": those of one of two conjugate
     /// Fourier blocks. `None` where it has as many eigenvectors as its multiplicity.
-    fn jordan(&self, eigenvalue: &Eigenvalue) -> Option<String> {
+    pub(crate) fn jordan(&self, eigenvalue: &Eigenvalue) -> Option<String> {
         let block = self.system.blocks().get(eigenvalue.fourier.unwrap_or(0))?;
         let sizes = eigenvalue
             .is_defective()
@@ -270,7 +320,12 @@ impl Limits {
             .eigenvalues
             .iter()
             .find(|e| e.fourier == Some(1) && e.value.1 == 0.0);
+        let stray = analysis.spectrum.stray().zip(analysis.spectrum.subdominant());
         let tangents = match lambda {
+            _ if stray.is_some() => Err(eigenring_spectral::Error::Stray {
+                value: stray.map_or(f64::NAN, |(_, e)| e.modulus()),
+                fourier: stray.map_or(0, |(index, _)| index),
+            }),
             Some(lambda) => system.limit_tangents(lambda.value.0),
             // without blocks: of the pair after 1, equal or not
             None => system.pair_functionals(&analysis.spectrum),

@@ -159,6 +159,18 @@ impl Table {
         }
     }
 
+    /// The table with other headings for people, which carry units; names that programs read are kept.
+    pub fn headed(mut self, format: Format, headings: &[(&str, &str)]) -> Self {
+        if matches!(format, Format::Text | Format::Latex) {
+            for column in &mut self.columns {
+                if let Some((_, heading)) = headings.iter().find(|(name, _)| name == column) {
+                    *column = (*heading).to_owned();
+                }
+            }
+        }
+        self
+    }
+
     /// Adds the rows of a table with the same columns.
     pub fn append(&mut self, other: Table) {
         debug_assert_eq!(self.columns, other.columns, "rows have one cell for each column");

@@ -97,7 +97,7 @@ fn record(found: &Sample, best: &Minimum, branch: &str) -> Record {
         .with("total", best.total)
         .with("branch", branch)
         .with("lowest", found.minima[0].total)
-        .with("theta", best.theta)
+        .with("theta", best.theta.to_degrees())
         .with("kkt_residual", best.kkt_residual)
         .with("minima", found.minima.len())
         .with("starts", found.starts)

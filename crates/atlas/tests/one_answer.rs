@@ -5,6 +5,7 @@
 use eigenring_atlas::compare::Row;
 use eigenring_atlas::spectrum::Analysis;
 use eigenring_certify::{Input, Statement, Status, certify};
+use eigenring_scheme::user::{Reading, UserScheme};
 use eigenring_scheme::{Scheme, Spec, registry};
 
 /// Enclosures are up to 1e-12 wide; eigenvalues of double arithmetic with a vector each are closer still.
@@ -89,4 +90,81 @@ fn catmull_clark_is_stam_of_order_four() {
             assert!(close(a.unwrap(), b.unwrap()), "{one:?}\n{other:?}");
         }
     }
+}
+
+/// The largest eigenvalue after 1 is in block 0, for large weights of the vertex rule.
+const STRAY: &str = r#"
+kind = "one-ring"
+name = "stray"
+[[valence]]
+n = 3
+f1 = "1/4"
+f2 = "1/4"
+f3 = "1/4"
+d1 = "3/8"
+d2 = "3/8"
+e1 = "1/16"
+e2 = "1/16"
+alpha = "1/5"
+beta = "1/30"
+"#;
+
+/// What has no meaning without a characteristic map is left out by all that would print it, and they say why.
+#[test]
+fn a_subdominant_eigenvalue_of_another_block_is_said_to_be() {
+    let file = UserScheme::parse(STRAY, "stray", Reading::default()).unwrap();
+    let scheme: Scheme<f64> = file.scheme(3).unwrap();
+    let analysis = Analysis::of_scheme(&scheme, None, None).unwrap();
+    let lambda = analysis.spectrum.subdominant().unwrap();
+    assert_eq!((lambda.fourier, analysis.spectrum.stray()), (Some(0), Some(0)));
+    let json = analysis.json();
+    assert!(json["s"].is_null() && json["limit_stencils"]["tangent_x"].is_null());
+    assert!(json["limit_stencils"]["position"].is_array());
+    assert!(analysis.text().contains("note: the subdominant eigenvalue") && analysis.text().contains("index 0, not 1"));
+    let row = Row::new("stray", &scheme).unwrap();
+    assert!(close(row.lambda.unwrap(), lambda.modulus()));
+    assert_eq!((row.ratio, row.total, row.theta, row.strict), (None, None, None, None));
+    assert!(row.remark.contains("Fourier index 0, not 1"), "{}", row.remark);
+    let input = Input::Toml {
+        text: STRAY.to_owned(),
+        name: "stray".to_owned(),
+        reading: Reading::default(),
+    };
+    let certificate = certify(input, 3).unwrap();
+    let c1 = certificate
+        .checks
+        .iter()
+        .filter(|check| check.name == Statement::Dominant || check.name == Statement::Subdominant);
+    assert!(c1.clone().count() > 0 && c1.into_iter().any(|check| !check.holds));
+}
+
+/// Fields of the JSON of `spectrum` that others rely upon, of the limit level and of a leading one.
+#[test]
+fn spectra_name_their_level() {
+    let scheme: Scheme<f64> = "tension:order=6,u0=2".parse::<Spec>().unwrap().scheme(7).unwrap();
+    let leading = scheme.leading().len();
+    let (limit, first) = (
+        Analysis::of_scheme(&scheme, None, None).unwrap(),
+        Analysis::of_scheme(&scheme, None, Some(0)).unwrap(),
+    );
+    let (json, text) = (limit.json(), limit.text());
+    for field in "scheme corner valence rings points level eigenvalues subdominant subsubdominant s lattice closed_rings outer limit_stencils notes"
+        .split(' ')
+    {
+        assert!(json.contains_key(field), "{field}");
+    }
+    assert_eq!(
+        (json["level"].as_u64(), first.json()["level"].as_u64()),
+        (Some(leading as u64), Some(0))
+    );
+    assert!(text.contains("level") && text.contains("the limit level"), "{text}");
+    assert!(first.text().contains("a leading level"));
+    assert!(limit.spectrum.subdominant() != first.spectrum.subdominant());
+    let total: u64 = json["eigenvalues"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|e| e["multiplicity"].as_u64().unwrap())
+        .sum();
+    assert_eq!(Some(total), json["points"].as_u64());
 }

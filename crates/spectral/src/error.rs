@@ -20,6 +20,14 @@ pub enum Error {
         /// Its multiplicity.
         multiplicity: usize,
     },
+    /// The eigenvalue after 1 is of another block than that of the tangent plane.
+    #[error("the subdominant eigenvalue {value} is of Fourier index {fourier}, not 1: there is no tangent plane")]
+    Stray {
+        /// Its modulus.
+        value: f64,
+        /// Its block.
+        fourier: usize,
+    },
     /// Fourier blocks exist for rotation-symmetric rules only.
     #[error("the rules differ from sector to sector: there are no Fourier blocks")]
     NotSymmetric,

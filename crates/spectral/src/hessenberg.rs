@@ -153,24 +153,24 @@ impl Hessenberg {
 fn double_shift(h: &mut Matrix<Extended>, first: usize, last: usize, [x, y, w]: [Extended; 3]) {
     let size = |x: Extended| x.to_f64().abs();
     // where two small entries in a row let the step begin
-    let (mut m, mut start) = (last - 2, [zero(); 3]);
-    loop {
+    let mut m = last - 2;
+    let start = loop {
         let z = h[(m, m)];
         let (r, s) = (x - z, y - z);
         let p = (r * s - w) / h[(m + 1, m)] + h[(m, m + 1)];
         let q = h[(m + 1, m + 1)] - z - r - s;
         let r = h[(m + 2, m + 1)];
         let scale = p.abs() + q.abs() + r.abs();
-        start = [p / scale, q / scale, r / scale];
+        let start = [p / scale, q / scale, r / scale];
         if m == first {
-            break;
+            break start;
         }
         let around = size(h[(m - 1, m - 1)]) + size(z) + size(h[(m + 1, m + 1)]);
         if size(h[(m, m - 1)]) * (size(start[1]) + size(start[2])) < UNIT * size(start[0]) * around {
-            break;
+            break start;
         }
         m -= 1;
-    }
+    };
     for i in m + 2..=last {
         h[(i, i - 2)] = zero();
         if i > m + 2 {

@@ -166,6 +166,10 @@ pub(crate) fn repeated(block: &Block<Extended>, precision: Precision) -> Result<
         return Err(failure());
     }
     for cluster in &mut clusters {
+        // zeros are exact
+        if Pair(cluster.mean.0, cluster.mean.1).size() <= tolerance {
+            cluster.mean = Value::default();
+        }
         // the mean of a conjugate pair, or of what rounding made one
         if cluster.mean.1.size() <= tolerance && matches!(block, Block::Real(_)) {
             cluster.mean.1 = Extended::default();

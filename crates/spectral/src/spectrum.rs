@@ -151,6 +151,18 @@ impl Spectrum {
         self.eigenvalues.get(1)
     }
 
+    /// The Fourier index of the subdominant eigenvalue where block 1, whose vectors make up the characteristic
+    /// map, has none as large: then lambda, its ratios and the map have not their usual meaning.
+    pub fn stray(&self) -> Option<usize> {
+        let subdominant = self.subdominant()?;
+        let same = self.eigenvalues[1..].iter().take_while(|e| {
+            let gap = subdominant.modulus() - e.modulus();
+            gap <= SAME * subdominant.modulus()
+        });
+        let index = subdominant.fourier.filter(|&index| index != 1)?;
+        (!same.into_iter().any(|e| e.fourier == Some(1))).then_some(index)
+    }
+
     /// The eigenvalue of largest modulus below the subdominant one.
     pub fn subsubdominant(&self) -> Option<&Eigenvalue> {
         let subdominant = self.subdominant()?;
@@ -160,8 +172,11 @@ impl Spectrum {
     }
 
     /// `mu / lambda^2`: 1 for bounded curvature without a flat spot. Moduli are taken; `None` where lambda is
-    /// 0.
+    /// 0 or a [`stray`](Spectrum::stray) one.
     pub fn curvature_ratio(&self) -> Option<f64> {
+        if self.stray().is_some() {
+            return None;
+        }
         let lambda = self.subdominant()?.modulus();
         (lambda > 0.0).then(|| self.subsubdominant().map_or(0.0, |mu| mu.modulus() / (lambda * lambda)))
     }

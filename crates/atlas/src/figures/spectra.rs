@@ -12,6 +12,7 @@ use super::{Drawing, Entry, Inputs};
 use crate::error::Error;
 use crate::table::Table;
 use eigenring_figure::{Anchor, Axis, Chart, Colour, Dash, Figure, Marker, Panel, Side, Stroke, Style, decades_of};
+use eigenring_scheme::Corner;
 use eigenring_spectral::{Eigenvalue, Spectrum, Sufficient};
 
 pub const ENTRY: Entry = Entry {
@@ -88,12 +89,16 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
         "geometric",
     ]);
     for (column, &valence) in inputs.valences.iter().enumerate() {
-        for (row, subject) in chosen(inputs, valence)?.iter().enumerate() {
+        for (row, (subject, argument)) in chosen(inputs, valence)?.iter().zip(inputs.schemes).enumerate() {
             let Sufficient { system, .. } = Sufficient::new(subject.scheme.limit(), subject.scheme.closed_rings()?)?;
             if !system.symmetric() {
                 return Err(eigenring_spectral::Error::NotSymmetric.into());
             }
-            let spectrum = system.spectrum()?;
+            let corner = Corner::closed(argument.centre()?, valence)?;
+            let spectrum = match argument.extended(&corner)? {
+                Some(extended) => system.spectrum_of(extended.limit())?,
+                None => system.spectrum()?,
+            };
             for e in &spectrum.eigenvalues {
                 table.push(vec![
                     subject.name.as_str().into(),

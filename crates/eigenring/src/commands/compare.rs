@@ -59,7 +59,9 @@ impl Arguments {
         let rows = compare(&self.schemes.all(), self.valences.closed()?, &tuner())?;
         let printed = match format {
             Format::Text => text(&rows, wide),
-            _ => table(rows).render(format),
+            _ => table(rows)
+                .headed(format, &[("E", "E (unweighted)"), ("theta", "theta (deg)")])
+                .render(format),
         };
         self.output.emit(&printed)?;
         Ok(ExitCode::SUCCESS)

@@ -4,6 +4,7 @@ mod compare;
 mod completions;
 mod curvature;
 mod curve;
+mod eigenvectors;
 mod limit;
 mod make;
 mod matrix;
@@ -50,6 +51,7 @@ enum Command {
     Tune(tune::Arguments),
     Verify(verify::Arguments),
     Spectrum(spectrum::Arguments),
+    Eigenvectors(eigenvectors::Arguments),
     Matrix(matrix::Arguments),
     Compare(compare::Arguments),
     Curve(curve::Arguments),
@@ -75,6 +77,7 @@ impl Cli {
             Command::Tune(arguments) => arguments.run(),
             Command::Verify(arguments) => arguments.run(),
             Command::Spectrum(arguments) => arguments.run(),
+            Command::Eigenvectors(arguments) => arguments.run(),
             Command::Matrix(arguments) => arguments.run(),
             Command::Compare(arguments) => arguments.run(),
             Command::Curve(arguments) => arguments.run(),

@@ -84,7 +84,14 @@ impl Arguments {
                 let (shape, steps) = self.corner.shape(self.valence.valence)?;
                 let corner = shape.corner(scheme.centre()?, steps)?;
                 let found = scheme.around(&corner, &args::tuner())?;
-                Answer::Scheme(Analysis::of_corner(&found, &corner, self.rings, self.level)?)
+                let extended = scheme.extended(&corner)?;
+                Answer::Scheme(Analysis::of_corner(
+                    &found,
+                    extended.as_ref(),
+                    &corner,
+                    self.rings,
+                    self.level,
+                )?)
             }
             (None, Some(path)) => {
                 self.corner.refuse("for a matrix")?;

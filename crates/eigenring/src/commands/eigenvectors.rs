@@ -1,0 +1,84 @@
+//! `eigenring eigenvectors`: right and left eigenvectors of a local matrix, with the names of its points.
+
+use crate::args::{self, CornerArgs};
+use crate::error::Error;
+use crate::files;
+use crate::output::{Extension, agreed};
+use crate::valences::OptionalValence;
+use clap::{Args, ValueEnum};
+use eigenring_atlas::eigenvectors::Eigenvectors;
+use eigenring_atlas::schemes::SchemeName;
+use eigenring_atlas::spectrum::Analysis;
+use eigenring_atlas::table::{Format, pretty};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Write all right and left eigenvectors of a local subdivision matrix.
+///
+/// Columns stand in the order of 'eigenring spectrum'; S R = R D, and left vectors are dual to right ones, L^T
+/// R = I. A real eigenvalue has real vectors, of blocks k and N-k the real and the imaginary part; of a complex
+/// one each conjugate has its own. A defective matrix has too few, and is refused with its Jordan blocks.
+/// JSON holds rows for points and columns for vectors; csv a row for each vector; npy one array of shape (2,
+/// points, points), right vectors as columns, then left ones.
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Examples:\n  eigenring eigenvectors --scheme catmull-clark -N 5 -o vectors.json\n  eigenring eigenvectors --scheme stam:order=6 -N 7 --format csv"
+)]
+pub struct Arguments {
+    /// The scheme: see 'eigenring --help'
+    #[arg(long, value_name = "SPEC")]
+    scheme: SchemeName,
+    #[command(flatten)]
+    valence: OptionalValence,
+    #[command(flatten)]
+    corner: CornerArgs,
+    /// Rings of control points; by default as many as 'eigenring spectrum' takes
+    #[arg(long, value_name = "R", value_parser = args::count, allow_negative_numbers = true)]
+    rings: Option<usize>,
+    /// Level of refinement, 0 for the first; by default the limit level
+    #[arg(long, value_name = "LEVEL", value_parser = args::count, allow_negative_numbers = true)]
+    level: Option<usize>,
+    /// JSON (the default), comma-separated values, or NumPy
+    #[arg(long, value_enum)]
+    format: Option<VectorFormat>,
+    /// The file to write, in the format that its extension names (.json, .csv, .npy); standard output by default
+    #[arg(short, long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum VectorFormat {
+    #[default]
+    Json,
+    Csv,
+    Npy,
+}
+
+impl Extension for VectorFormat {
+    fn extensions(self) -> &'static [&'static str] {
+        match self {
+            VectorFormat::Json => &["json"],
+            VectorFormat::Csv => &["csv"],
+            VectorFormat::Npy => &["npy"],
+        }
+    }
+}
+
+impl Arguments {
+    pub fn run(self) -> Result<ExitCode, Error> {
+        let (shape, steps) = self.corner.shape(self.valence.valence)?;
+        let corner = shape.corner(self.scheme.centre()?, steps)?;
+        let scheme = self.scheme.around(&corner, &args::tuner())?;
+        let format = agreed(self.format, self.out.as_deref())?.unwrap_or_default();
+        let extended = self.scheme.extended(&corner)?;
+        let analysis = Analysis::of_corner(&scheme, extended.as_ref(), &corner, self.rings, self.level)?;
+        let vectors = Eigenvectors::new(&analysis)?;
+        let bytes = match format {
+            VectorFormat::Json => pretty(&vectors.json()).into_bytes(),
+            VectorFormat::Csv => vectors.table().render(Format::Csv).into_bytes(),
+            VectorFormat::Npy => vectors.npy()?,
+        };
+        files::emit(self.out.as_deref(), &bytes)?;
+        Ok(ExitCode::SUCCESS)
+    }
+}

@@ -1,0 +1,75 @@
+//! **Claim**: eigenvalues and multiplicities of Stam's scheme of orders 11 to 32 are those of arithmetic with 200
+//! digits, the small ones and those that agree to 18 digits too. **Oracle**: `tests/data/high_orders.py`, which
+//! folds, refines and smooths points in fixed-point numbers of 800 bits by code of its own and has Arb find the
+//! eigenvalues; values within 1e-40 are one there.
+
+use eigenring_scheme::families::tension;
+use eigenring_spectral::{Eigenvalue, Extended, LocalSystem};
+
+/// A value, its multiplicity.
+type Known = ((f64, f64), usize);
+
+/// `re*m`, `re+imi*m`, `re`: numbers in exponential form, so that a sign after a digit begins the imaginary part.
+fn known(text: &str) -> Known {
+    let (value, multiplicity) = text.split_once('*').unwrap_or((text, "1"));
+    let bytes = value.as_bytes();
+    let split = (1..bytes.len()).find(|&i| matches!(bytes[i], b'+' | b'-') && bytes[i - 1] != b'e');
+    let (re, im) = match split {
+        Some(i) => (&value[..i], value[i..].trim_end_matches('i')),
+        None => (value, "0"),
+    };
+    (
+        (re.parse().unwrap(), im.parse().unwrap()),
+        multiplicity.parse().unwrap(),
+    )
+}
+
+#[test]
+fn spectra_are_those_of_many_digits() {
+    let text = include_str!("../data/high_orders.txt");
+    let mut last = (0, 0, Vec::new());
+    let (mut repeated, mut complex, mut closest) = (0, 0, f64::INFINITY);
+    for line in text.lines().filter(|line| !line.starts_with('#')) {
+        let (place, values) = line.split_once(':').unwrap();
+        let place: Vec<usize> = place.split(' ').map(|word| word.parse().unwrap()).collect();
+        let &[order, valence, index] = place.as_slice() else {
+            panic!("{line}")
+        };
+        if (last.0, last.1) != (order, valence) {
+            let scheme = tension::<f64>(valence, order, 1.0).unwrap();
+            let system = LocalSystem::new(scheme.limit(), scheme.closed_rings().unwrap()).unwrap();
+            let extended = tension::<Extended>(valence, order, 1.0).unwrap();
+            let found = system.spectrum_of(extended.limit()).unwrap().eigenvalues;
+            let total: usize = found.iter().map(|e| e.multiplicity).sum();
+            assert_eq!(total, system.numbering().count());
+            assert!(found.iter().all(|e| e.geometric <= Some(e.multiplicity)));
+            last = (order, valence, found);
+        }
+        let copies = if index == 0 || 2 * index == valence { 1 } else { 2 };
+        let mut expected: Vec<Known> = values.split_whitespace().map(known).collect();
+        let mut found: Vec<&Eigenvalue> = last.2.iter().filter(|e| e.fourier == Some(index)).collect();
+        expected.sort_by(|a, b| b.0.0.total_cmp(&a.0.0).then(b.0.1.total_cmp(&a.0.1)));
+        found.sort_by(|a, b| b.value.0.total_cmp(&a.value.0).then(b.value.1.total_cmp(&a.value.1)));
+        assert_eq!(
+            found.len(),
+            expected.len(),
+            "order {order}, N = {valence}, block {index}"
+        );
+        for (e, (value, multiplicity)) in found.iter().zip(&expected) {
+            let error = (e.value.0 - value.0).hypot(e.value.1 - value.1);
+            assert!(
+                error <= 1e-12 * value.0.hypot(value.1) && e.multiplicity == copies * multiplicity,
+                "order {order}, N = {valence}, block {index}: {e:?}, expected {value:?} {multiplicity} times"
+            );
+            repeated += usize::from(*multiplicity > 1);
+            complex += usize::from(value.1 != 0.0);
+        }
+        for pair in expected.windows(2).filter(|pair| pair[0].0.1 == 0.0) {
+            closest = closest.min((pair[0].0.0 - pair[1].0.0) / pair[0].0.0);
+        }
+    }
+    assert!(
+        repeated > 200 && complex > 4 && closest < 1e-14,
+        "{repeated} {complex} {closest}"
+    );
+}
