@@ -1,9 +1,9 @@
 //! All right and left eigenvectors of a local matrix, with the names of its points.
 //!
-//! Columns stand in the order of the spectrum. A real eigenvalue has real vectors: where blocks k and N-k share
-//! it, each vector `r` of block k stands for two, its real and its imaginary part, whose left vectors are `2 Re
-//! l` and `-2 Im l`. Of a complex eigenvalue each conjugate has its own vector, with its own Fourier index. With
-//! R and L the matrices of columns and D the eigenvalues, `S R = R D` and `L^T R = I`.
+//! Columns stand in the order of the spectrum. A real eigenvalue has real vectors: where blocks k and N-k
+//! share it, each vector `r` of block k stands for two, its real and its imaginary part, whose left vectors
+//! are `2 Re l` and `-2 Im l`. Of a complex eigenvalue each conjugate has its own vector, with its own
+//! Fourier index. With R and L the matrices of columns and D the eigenvalues, `S R = R D` and `L^T R = I`.
 
 use crate::error::{Accepted, Error};
 use crate::matrix::npy;
@@ -43,8 +43,8 @@ impl<'a> Eigenvectors<'a> {
     /// All eigenvectors.
     ///
     /// # Errors
-    /// [`Error::Content`] for a defective eigenvalue, with the sizes of its Jordan blocks, and where doubles do
-    /// not tell eigenvectors of different eigenvalues apart; those of the modes.
+    /// [`Error::Content`] for a defective eigenvalue, with the sizes of its Jordan blocks, and where doubles
+    /// do not tell eigenvectors of different eigenvalues apart; those of the modes.
     pub fn new(analysis: &'a Analysis) -> Result<Self, Error> {
         let system = &analysis.system;
         if let Some(e) = analysis.spectrum.eigenvalues.iter().find(|e| e.is_defective()) {
@@ -162,8 +162,8 @@ impl<'a> Eigenvectors<'a> {
         })
     }
 
-    /// A row for each vector: the eigenvalue, its Fourier index, `right` or `left`, `re` or `im`, and the entries
-    /// under the names of the points.
+    /// A row for each vector: the eigenvalue, its Fourier index, `right` or `left`, `re` or `im`, and the
+    /// entries under the names of the points.
     pub fn table(&self) -> Table {
         let sites = self.analysis.system.numbering().sites();
         let names = sites
@@ -196,7 +196,8 @@ impl<'a> Eigenvectors<'a> {
         table
     }
 
-    /// NumPy's format: an array of shape (2, points, points), the right vectors as columns, then the left ones.
+    /// NumPy's format: an array of shape (2, points, points), the right vectors as columns, then the left
+    /// ones.
     ///
     /// # Errors
     /// [`Error::Content`] where some are complex.

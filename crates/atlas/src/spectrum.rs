@@ -44,7 +44,8 @@ pub struct Analysis {
     pub corner: String,
     /// The matrix, in blocks where it has them.
     pub system: LocalSystem,
-    /// The level of refinement, counted from 0, and how many come before the limit level; unknown for a matrix.
+    /// The level of refinement, counted from 0, and how many come before the limit level; unknown for a
+    /// matrix.
     pub level: Option<(usize, usize)>,
     /// The smallest closed number of rings, and the largest modulus of the eigenvalues outside of it; unknown
     /// for a matrix.

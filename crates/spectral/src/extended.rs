@@ -1,9 +1,9 @@
 //! Numbers of 256 bits, about 77 digits.
 //!
-//! Eigenvalues of a scheme of high order lie closer together than doubles can tell, and are badly conditioned:
-//! at order 20 and valence 5 two of them agree to twelve digits at 1/256, and at order 32 perturbing the matrix
-//! by `eps` moves some by `1e14 eps`, more than the `4e-27` that two are apart. The rules are generic over the
-//! [`Scalar`], and [`Extended`] runs them with errors of some units of `2^-256`.
+//! Eigenvalues of a scheme of high order lie closer together than doubles can tell, and are badly
+//! conditioned: at order 20 and valence 5 two of them agree to twelve digits at 1/256, and at order 32
+//! perturbing the matrix by `eps` moves some by `1e14 eps`, more than the `4e-27` that two are apart. The
+//! rules are generic over the [`Scalar`], and [`Extended`] runs them with errors of some units of `2^-256`.
 //!
 //! The size is fixed, so that nothing is allocated: a decomposition of 240 unknowns takes 10^8 operations.
 
@@ -18,8 +18,8 @@ const WORDS: usize = 4;
 const INFINITE: i32 = 1 << 28;
 
 /// A floating-point number `+- mantissa 2^(exponent - 256)` whose mantissa, of four words with the lowest
-/// first, has its highest bit set; all words are 0 for zero. Results are truncated, and their exponents are not
-/// bounded in practice.
+/// first, has its highest bit set; all words are 0 for zero. Results are truncated, and their exponents are
+/// not bounded in practice.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Extended {
     negative: bool,

@@ -1,9 +1,9 @@
 //! Eigenvalues in more precision than that of doubles, and how far a number is from being one.
 //!
 //! A real matrix is brought to Hessenberg form by reflections and iterated on with Francis's double shifts
-//! (G. Golub and C. Van Loan, *Matrix Computations*, 7.4 and 7.5; the shifts for cases of slow convergence are
-//! those of EISPACK's `hqr`). Both steps are orthogonal, so that the values are those of a matrix within some
-//! rounding units of the given one.
+//! (G. Golub and C. Van Loan, *Matrix Computations*, 7.4 and 7.5; the shifts for cases of slow convergence
+//! are those of EISPACK's `hqr`). Both steps are orthogonal, so that the values are those of a matrix within
+//! some rounding units of the given one.
 
 use crate::Matrix;
 use crate::extended::{Extended, UNIT};
@@ -16,8 +16,8 @@ pub(crate) type Value = (Extended, Extended);
 /// Steps per eigenvalue that are waited for; three are usual.
 const STEPS: usize = 60;
 
-/// A matrix in Hessenberg form, with the same eigenvalues and singular values of shifts as the one it was made
-/// from.
+/// A matrix in Hessenberg form, with the same eigenvalues and singular values of shifts as the one it was
+/// made from.
 pub(crate) struct Hessenberg {
     entries: Matrix<Extended>,
 }

@@ -1,15 +1,15 @@
 //! Repeated eigenvalues of a block, told from different ones that are close.
 //!
 //! Two computed values are one repeated eigenvalue **if their mean is an eigenvalue, up to rounding, of each
-//! strongly connected part of the block that they come from**: if the smallest singular value of the part less
-//! the mean is below some rounding units of its norm. A gap of the values says nothing by itself. Rounding by
-//! `eps` scatters a defective eigenvalue of index m over a circle of radius `eps^(1/m)`, and at its centre the
-//! part is singular to `eps` all the same; between two simple eigenvalues the part is as regular as their
-//! distance, over their condition number.
+//! strongly connected part of the block that they come from**: if the smallest singular value of the part
+//! less the mean is below some rounding units of its norm. A gap of the values says nothing by itself.
+//! Rounding by `eps` scatters a defective eigenvalue of index m over a circle of radius `eps^(1/m)`, and at
+//! its centre the part is singular to `eps` all the same; between two simple eigenvalues the part is as
+//! regular as their distance, over their condition number.
 //!
-//! Everything is computed with [`Extended`] numbers. Where the rules themselves are known so well, order 32 with
-//! eigenvalues that agree to 18 digits comes apart; a matrix of doubles has eigenvalues that are known to
-//! `2^-53`, and what its rounding could make of one eigenvalue is one.
+//! Everything is computed with [`Extended`] numbers. Where the rules themselves are known so well, order 32
+//! with eigenvalues that agree to 18 digits comes apart; a matrix of doubles has eigenvalues that are known
+//! to `2^-53`, and what its rounding could make of one eigenvalue is one.
 
 use crate::components::strong_components;
 use crate::eigen::{modulus, order};
@@ -230,7 +230,8 @@ fn gap(a: &Cluster, b: &Cluster) -> f64 {
     Pair(a.mean.0 - b.mean.0, a.mean.1 - b.mean.1).size()
 }
 
-/// Joins clusters, the closest first, as long as their mean is an eigenvalue of all parts that they come from.
+/// Joins clusters, the closest first, as long as their mean is an eigenvalue of all parts that they come
+/// from.
 fn join(clusters: &mut Vec<Cluster>, mut is_eigenvalue: impl FnMut(usize, Value) -> bool) {
     let close = |a: &Cluster, b: &Cluster| {
         let gap = gap(a, b);
@@ -294,8 +295,8 @@ fn pairs_with(
         .collect()
 }
 
-/// The pivots of elimination with full pivoting of a matrix less a number, falling: as many are of the size of
-/// rounding as its null space has dimensions.
+/// The pivots of elimination with full pivoting of a matrix less a number, falling: as many are of the size
+/// of rounding as its null space has dimensions.
 fn pivots<T: Entry>(mut m: Matrix<T>, value: T) -> Vec<f64> {
     let n = m.rows();
     (0..n).for_each(|i| m[(i, i)] = m[(i, i)] - value);

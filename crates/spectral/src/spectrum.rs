@@ -16,8 +16,8 @@ pub struct Eigenvalue {
     pub fourier: Option<usize>,
     /// The algebraic multiplicity in the whole local matrix: both blocks counted.
     pub multiplicity: usize,
-    /// The number of independent eigenvectors in the whole local matrix, never above the multiplicity, and below
-    /// it if defective. `None` where it was not asked for.
+    /// The number of independent eigenvectors in the whole local matrix, never above the multiplicity, and
+    /// below it if defective. `None` where it was not asked for.
     pub geometric: Option<usize>,
 }
 
@@ -55,8 +55,8 @@ pub struct Spectrum {
 const MAX_EXTENDED: usize = 400;
 
 impl LocalSystem {
-    /// All eigenvalues with their algebraic and geometric multiplicities, as far as a matrix of doubles tells:
-    /// what its rounding could make of one eigenvalue is one. [`LocalSystem::spectrum_of`] knows more.
+    /// All eigenvalues with their algebraic and geometric multiplicities, as far as a matrix of doubles
+    /// tells: what its rounding could make of one eigenvalue is one. [`LocalSystem::spectrum_of`] knows more.
     ///
     /// # Errors
     /// [`Error::Decomposition`] if an entry is not finite or an iteration fails.
@@ -151,8 +151,9 @@ impl Spectrum {
         self.eigenvalues.get(1)
     }
 
-    /// The Fourier index of the subdominant eigenvalue where block 1, whose vectors make up the characteristic
-    /// map, has none as large: then lambda, its ratios and the map have not their usual meaning.
+    /// The Fourier index of the subdominant eigenvalue where block 1, whose vectors make up the
+    /// characteristic map, has none as large: then lambda, its ratios and the map have not their usual
+    /// meaning.
     pub fn stray(&self) -> Option<usize> {
         let subdominant = self.subdominant()?;
         let same = self.eigenvalues[1..].iter().take_while(|e| {

@@ -15,11 +15,11 @@ use std::process::ExitCode;
 
 /// Write all right and left eigenvectors of a local subdivision matrix.
 ///
-/// Columns stand in the order of 'eigenring spectrum'; S R = R D, and left vectors are dual to right ones, L^T
-/// R = I. A real eigenvalue has real vectors, of blocks k and N-k the real and the imaginary part; of a complex
-/// one each conjugate has its own. A defective matrix has too few, and is refused with its Jordan blocks.
-/// JSON holds rows for points and columns for vectors; csv a row for each vector; npy one array of shape (2,
-/// points, points), right vectors as columns, then left ones.
+/// Columns stand in the order of 'eigenring spectrum'; S R = R D, and left vectors are dual to right ones,
+/// L^T R = I. A real eigenvalue has real vectors, of blocks k and N-k the real and the imaginary part; of a
+/// complex one each conjugate has its own. A defective matrix has too few, and is refused with its Jordan
+/// blocks. JSON holds rows for points and columns for vectors; csv a row for each vector; npy one array of
+/// shape (2, points, points), right vectors as columns, then left ones.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  eigenring eigenvectors --scheme catmull-clark -N 5 -o vectors.json\n  eigenring eigenvectors --scheme stam:order=6 -N 7 --format csv"
@@ -41,7 +41,8 @@ pub struct Arguments {
     /// JSON (the default), comma-separated values, or NumPy
     #[arg(long, value_enum)]
     format: Option<VectorFormat>,
-    /// The file to write, in the format that its extension names (.json, .csv, .npy); standard output by default
+    /// The file to write, in the format that its extension names (.json, .csv, .npy); standard output by
+    /// default
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
 }
