@@ -9,7 +9,6 @@ mod curves;
 mod curves_exact;
 mod embedded_table;
 mod generated;
-mod high_orders;
 mod index;
 mod limits;
 mod numbering_picture;

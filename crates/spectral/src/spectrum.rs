@@ -51,8 +51,11 @@ pub struct Spectrum {
     pub eigenvalues: Vec<Eigenvalue>,
 }
 
-/// Blocks of more unknowns are decomposed in doubles: beyond, 400 take some ten seconds.
-const MAX_EXTENDED: usize = 400;
+/// Blocks of more unknowns are decomposed in doubles, with gaps in place of tests: 250 take some seconds.
+const MAX_EXTENDED: usize = 250;
+
+/// The same for matrices that are known in doubles only, of which less can be told.
+const MAX_LIFTED: usize = 40;
 
 impl LocalSystem {
     /// All eigenvalues with their algebraic and geometric multiplicities, as far as a matrix of doubles
@@ -130,7 +133,11 @@ fn multiplicities(
     doubles: &Block<f64>,
     precision: Precision,
 ) -> Result<Vec<Multiplicities>, Error> {
-    if block.size() <= MAX_EXTENDED {
+    let most = match precision {
+        Precision::Double => MAX_LIFTED,
+        Precision::Extended => MAX_EXTENDED,
+    };
+    if block.size() <= most {
         let known = |e: Repeated| (e.value, e.algebraic, Some(e.geometric));
         return Ok(repeated(block, precision)?.into_iter().map(known).collect());
     }

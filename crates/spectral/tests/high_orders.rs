@@ -27,7 +27,7 @@ fn known(text: &str) -> Known {
 
 #[test]
 fn spectra_are_those_of_many_digits() {
-    let text = include_str!("../data/high_orders.txt");
+    let text = include_str!("../../../tests/data/high_orders.txt");
     let mut last = (0, 0, Vec::new());
     let (mut repeated, mut complex, mut closest) = (0, 0, f64::INFINITY);
     for line in text.lines().filter(|line| !line.starts_with('#')) {
