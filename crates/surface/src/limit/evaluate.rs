@@ -77,6 +77,7 @@ pub(crate) struct Curvature {
     pub principal: [f64; 2],
 }
 
+#[inline]
 pub(crate) fn curvature(first: &[Vector3<f64>; 2], second: &[Vector3<f64>; 3]) -> Option<Curvature> {
     let [xs, xt] = first;
     let cross = xs.cross(xt);
@@ -297,6 +298,7 @@ fn vector(x: &[f64; 3]) -> Vector3<f64> {
     Vector3::new(x[0], x[1], x[2])
 }
 
+#[inline]
 fn regular(jet: &Jet3, scale: f64) -> Sample {
     let [position, xs, xt, xss, xst, xtt] = jet;
     let first = [vector(xs), vector(xt)].map(|d| d * scale);

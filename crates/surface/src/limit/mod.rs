@@ -172,6 +172,17 @@ impl<'a> Surface<'a> {
     /// # Errors
     /// As [`Surface::at`], for the first place that is refused.
     pub fn at_all(&self, places: &[Place]) -> Result<Vec<Sample>, Error> {
+        // places by faces, as grids are, need no second copy of all samples
+        if places.is_sorted_by_key(|place| place.face) {
+            let mut samples = Vec::with_capacity(places.len());
+            for group in places.chunk_by(|a, b| a.face == b.face) {
+                let mut evaluator = self.evaluator(group[0].face)?;
+                for &place in group {
+                    samples.push(evaluator.at(place)?);
+                }
+            }
+            return Ok(samples);
+        }
         let mut order: Vec<u32> = (0..places.len() as u32).collect();
         order.sort_by_key(|&index| places[index as usize].face);
         let mut samples = vec![None; places.len()];

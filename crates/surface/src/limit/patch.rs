@@ -5,6 +5,7 @@ use crate::refine::{Row, add};
 
 /// Values and derivatives of the four basis functions of uniform cubic splines at `t`. Written out, since a
 /// patch is evaluated a million times a second and must not allocate.
+#[inline]
 pub(crate) fn basis(t: f64) -> [[f64; 4]; 3] {
     let u = 1.0 - t;
     let (t2, u2) = (t * t, u * u);
@@ -25,6 +26,7 @@ pub(crate) fn basis(t: f64) -> [[f64; 4]; 3] {
 pub(crate) type Jet3 = [[f64; 3]; 6];
 
 /// The jet of a patch whose control points run along s first.
+#[inline]
 pub(crate) fn jet(control: &[[f64; 3]; 16], s: f64, t: f64) -> Jet3 {
     let (in_s, in_t) = (basis(s), basis(t));
     let mut jet = [[0.0; 3]; 6];
