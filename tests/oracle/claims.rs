@@ -11,6 +11,7 @@ pub fn input(text: &str) -> Input {
         text: text.to_owned(),
         name: "case".to_owned(),
         reading: Reading::Balanced,
+        parameters: Default::default(),
     }
 }
 

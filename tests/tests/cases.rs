@@ -228,6 +228,7 @@ fn long_decimal_n4_is_read_to_the_last_digit() {
         text: text.clone(),
         name,
         reading: Reading::Exact,
+        parameters: Default::default(),
     };
     assert_eq!(status(&certify(exact, 4).unwrap().checks, "row_sums"), Status::Refuted);
     // quoted or not, it is the same number

@@ -29,6 +29,7 @@ pub fn input(scheme: &SchemeName, valence: usize, reading: Reading, tuner: &Tune
                 text: crate::files::read(path)?,
                 name: stem(path),
                 reading,
+                parameters: Default::default(),
             })
         }
         SchemeName::Spec(spec) => Ok(match tuner.member(spec, valence)? {

@@ -15,8 +15,9 @@ use crate::{Error, Interval};
 use eigenring_scheme::families::tension_level;
 use eigenring_scheme::lambda::{Member, Plane, Source, Untabulated};
 use eigenring_scheme::user::{Balance, Reading, UserScheme};
-use eigenring_scheme::{Corner, Definition, Exact, Level, OneRing, Same, Scalar, Scheme, Shape, Spec, Taps};
+use eigenring_scheme::{Corner, Definition, Exact, Level, Number, OneRing, Same, Scalar, Scheme, Shape, Spec, Taps};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// A scheme, exactly; see the module page.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -56,6 +57,9 @@ pub enum Input {
         name: String,
         /// How its weights are read.
         reading: Reading,
+        /// The parameters that have another value than their default, as numbers in text.
+        #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+        parameters: BTreeMap<String, String>,
     },
     /// One-ring weights that were computed in doubles.
     Floating {
@@ -104,10 +108,12 @@ impl Input {
                 Some(f3) => format!("lambda:lambda={lambda},f2={f2},f3={f3},s={s}"),
                 None => format!("lambda:lambda={lambda},f2={f2},f3=mu,s={s}"),
             },
-            Input::Toml { text, name, reading } => {
-                let scheme = UserScheme::parse(text, name, *reading);
-                scheme.map_or_else(|_| name.clone(), |scheme| scheme.name().to_owned())
-            }
+            Input::Toml {
+                text,
+                name,
+                reading,
+                parameters,
+            } => file(text, name, *reading, parameters).map_or_else(|_| name.clone(), |scheme| scheme.name()),
             Input::Floating { .. } => "one-ring weights in doubles".to_owned(),
         }
     }
@@ -186,16 +192,24 @@ impl Input {
                 })
             }
             &Input::Lambda { lambda, s, f2, f3 } => lambda_subject(valence, lambda, s, f2, f3),
-            Input::Toml { text, name, reading } => {
-                let file = UserScheme::parse(text, name, *reading)?;
-                let exact = file.exact(valence)?;
+            Input::Toml {
+                text,
+                name,
+                reading,
+                parameters,
+            } => {
+                let file = file(text, name, *reading, parameters)?;
                 Ok(Subject {
-                    scheme: enclosed(exact),
-                    exact: Some(exact.clone()),
+                    scheme: file.scheme(valence)?,
+                    exact: Some(file.exact(valence)?),
                     identities: None,
                     floating: false,
                     corner: None,
                     beyond: Beyond::Unknown,
+                    // of formulas whose values are no exact numbers only enclosures are known, and equalities
+                    // hold as far as these tell
+                    floating: !file.is_exact(valence)?,
+                    tail: None,
                     affine_levels: false,
                     balance: file.balance(valence)?,
                 })
@@ -232,6 +246,18 @@ impl Input {
             }
         }
     }
+}
+
+/// A scheme file with values of its parameters.
+fn file(
+    text: &str,
+    name: &str,
+    reading: Reading,
+    parameters: &BTreeMap<String, String>,
+) -> Result<UserScheme, eigenring_scheme::Error> {
+    let values = parameters.iter().map(|(name, value)| Ok((name, value.parse()?)));
+    let values: Vec<(&String, Number)> = values.collect::<Result<_, eigenring_scheme::Error>>()?;
+    UserScheme::parse(text, name, reading)?.with(&values)
 }
 
 /// A scheme at one valence, ready for proofs.

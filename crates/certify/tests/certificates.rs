@@ -26,6 +26,7 @@ fn one_ring(valence: usize, weights: &[(&str, &str)]) -> Input {
         text: format!("kind = \"one-ring\"\nname = \"planted\"\n[[valence]]\nn = {valence}\n{lines}"),
         name: "planted".into(),
         reading: Reading::Balanced,
+        parameters: Default::default(),
     }
 }
 
@@ -432,6 +433,7 @@ fn rules_without_symmetry_are_left_open_and_not_guessed() {
             text: text.into(),
             name: "x".into(),
             reading: Reading::Balanced,
+            parameters: Default::default(),
         },
         5,
     )
@@ -461,6 +463,7 @@ fn rules_without_symmetry_are_left_open_and_not_guessed() {
             text: uneven,
             name: "x".into(),
             reading: Reading::Balanced,
+            parameters: Default::default(),
         },
         5,
     )
@@ -491,6 +494,7 @@ fn refused_input_is_an_error_and_no_panic() {
                 text: "x".into(),
                 name: "x".into(),
                 reading: Reading::Balanced,
+                parameters: Default::default(),
             },
             5
         )
@@ -715,6 +719,7 @@ fn uneven_catmull_clark(n: usize, more: i64) -> Input {
         text,
         name: "uneven".into(),
         reading: Reading::Balanced,
+        parameters: Default::default(),
     }
 }
 

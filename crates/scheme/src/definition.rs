@@ -19,11 +19,11 @@ impl Definition {
     pub fn name(&self) -> String {
         match self {
             Definition::Family(spec) => spec.to_string(),
-            Definition::File(file) => file.name().to_owned(),
+            Definition::File(file) => file.name(),
         }
     }
 
-    /// What the scheme has in the middle of its closed fans; that of the first valence of a file.
+    /// What the scheme has in the middle of its closed fans.
     pub fn centre(&self) -> Centre {
         let lattice = match self {
             Definition::Family(Spec::DooSabin | Spec::DooSabinUniform) => Lattice::Face,
@@ -31,10 +31,7 @@ impl Definition {
                 Some((order, _)) if order % 2 == 1 => Lattice::Face,
                 _ => Lattice::Vertex,
             },
-            Definition::File(file) => {
-                let first = file.valences().next().and_then(|valence| file.exact(valence).ok());
-                first.map_or(Lattice::Vertex, Scheme::lattice)
-            }
+            Definition::File(file) => file.lattice(),
         };
         match lattice {
             Lattice::Vertex => Centre::Vertex,
@@ -84,7 +81,7 @@ impl Definition {
         if corner.is_plain() && corner.centre() == self.centre() {
             return match self {
                 Definition::Family(spec) => spec.exact(valence),
-                Definition::File(file) => Ok(Some(file.exact(valence)?.clone())),
+                Definition::File(file) => Ok(Some(file.exact(valence)?)),
             };
         }
         self.beside_features(corner).map(Some)

@@ -191,6 +191,14 @@ pub enum Error {
         /// What is wrong, and where.
         message: String,
     },
+    /// A parameter of a scheme file is unknown, or its value out of range.
+    #[error("{scheme}: {message}")]
+    Parameter {
+        /// The scheme.
+        scheme: String,
+        /// What is wrong, and what is accepted.
+        message: String,
+    },
     /// The name of a scheme is unknown or its parameters do not fit it.
     #[error("scheme '{spec}': {reason}; accepted are {accepted}")]
     Spec {

@@ -50,7 +50,7 @@ pub use definition::Definition;
 /// The number types that rules are generic over.
 pub use eigenring_spline::{BigRational, Dual, Same, Scalar};
 pub use error::{Error, RuleFault};
-pub use exact::{Exact, Parts};
+pub use exact::{Cosines, Exact};
 pub use fourier::{Complex, Form, FourierNet};
 pub use level::{Level, Symmetry};
 pub use line::{Line, Taps};

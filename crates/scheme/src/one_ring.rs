@@ -33,7 +33,7 @@ const FACE: Site = Site { sector: 0, x: 2, y: 2 };
 
 impl<S> OneRing<S> {
     /// The same weights in another number type.
-    pub fn map<T>(self, f: impl Fn(S) -> T) -> OneRing<T> {
+    pub fn map<T>(self, mut f: impl FnMut(S) -> T) -> OneRing<T> {
         OneRing {
             f1: f(self.f1),
             f2: f(self.f2),
@@ -45,6 +45,49 @@ impl<S> OneRing<S> {
             alpha: f(self.alpha),
             beta: f(self.beta),
         }
+    }
+}
+
+impl<S> OneRing<S> {
+    /// References to the weights with their names, in the order of the fields.
+    pub fn each(&self) -> [(&'static str, &S); 9] {
+        [
+            ("f1", &self.f1),
+            ("f2", &self.f2),
+            ("f3", &self.f3),
+            ("d1", &self.d1),
+            ("d2", &self.d2),
+            ("e1", &self.e1),
+            ("e2", &self.e2),
+            ("alpha", &self.alpha),
+            ("beta", &self.beta),
+        ]
+    }
+}
+
+impl<S: Clone> OneRing<S> {
+    /// The level with these weights, of the centre's own weight, that of each edge neighbour and of each face
+    /// neighbour in `[own, edge, face]`, and with the regular ones made by `ratio`.
+    pub(crate) fn level_of(
+        &self,
+        valence: usize,
+        special: impl Fn(Site) -> bool,
+        [own, edge, face]: [S; 3],
+        ratio: impl Fn(i64, i64) -> S,
+    ) -> Result<Level<S>, Error> {
+        Ok(Name::level(valence, special)?.map(|name| match name {
+            Name::F1 => self.f1.clone(),
+            Name::F2 => self.f2.clone(),
+            Name::F3 => self.f3.clone(),
+            Name::D1 => self.d1.clone(),
+            Name::D2 => self.d2.clone(),
+            Name::E1 => self.e1.clone(),
+            Name::E2 => self.e2.clone(),
+            Name::Own => own.clone(),
+            Name::Alpha => edge.clone(),
+            Name::Beta => face.clone(),
+            Name::Regular(p, q) => ratio(*p, *q),
+        }))
     }
 }
 
@@ -78,20 +121,8 @@ impl<S: Scalar> OneRing<S> {
     pub(crate) fn level_with(self, valence: usize, special: impl Fn(Site) -> bool) -> Result<Level<S>, Error> {
         let n = S::ratio(valence.max(1) as i64, 1);
         let own = S::one() - self.alpha.clone() - self.beta.clone();
-        let level = Name::level(valence, special)?.map(|name| match name {
-            Name::F1 => self.f1.clone(),
-            Name::F2 => self.f2.clone(),
-            Name::F3 => self.f3.clone(),
-            Name::D1 => self.d1.clone(),
-            Name::D2 => self.d2.clone(),
-            Name::E1 => self.e1.clone(),
-            Name::E2 => self.e2.clone(),
-            Name::Own => own.clone(),
-            Name::Alpha => self.alpha.clone() / n.clone(),
-            Name::Beta => self.beta.clone() / n.clone(),
-            Name::Regular(p, q) => S::ratio(*p, *q),
-        });
-        Ok(level)
+        let each = [own, self.alpha.clone() / n.clone(), self.beta.clone() / n];
+        self.level_of(valence, special, each, S::ratio)
     }
 }
 

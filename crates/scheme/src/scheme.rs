@@ -38,6 +38,29 @@ impl<S: Scalar> Scheme<S> {
         Scheme::new(name, Vec::new(), level)
     }
 
+    /// The mask of the regular rules, at half steps: what the degree was derived from; `None` where
+    /// directions differ.
+    pub fn regular_mask(&self) -> Option<BTreeMap<i32, S>> {
+        self.limit.regular_mask()
+    }
+}
+
+impl<S: Clone> Scheme<S> {
+    /// A scheme whose degree has been derived from other forms of the same weights.
+    pub(crate) fn of_degree(
+        name: impl Into<String>,
+        leading: Vec<Level<S>>,
+        limit: Level<S>,
+        degree: Option<usize>,
+    ) -> Self {
+        Scheme {
+            name: name.into(),
+            leading,
+            limit,
+            degree,
+        }
+    }
+
     /// The same scheme under another name.
     pub fn named(self, name: impl Into<String>) -> Self {
         Scheme {
@@ -48,7 +71,7 @@ impl<S: Scalar> Scheme<S> {
 
     /// The same scheme with weights of another type. Symmetry and degree are kept: they are facts about the
     /// weights, of which the images are enclosures or approximations.
-    pub fn map<T: Scalar>(&self, mut f: impl FnMut(&S) -> T) -> Scheme<T> {
+    pub fn map<T: Clone>(&self, mut f: impl FnMut(&S) -> T) -> Scheme<T> {
         Scheme {
             name: self.name.clone(),
             leading: self.leading.iter().map(|level| level.map(&mut f)).collect(),
@@ -57,14 +80,6 @@ impl<S: Scalar> Scheme<S> {
         }
     }
 
-    /// The mask of the regular rules, at half steps: what the degree was derived from; `None` where
-    /// directions differ.
-    pub fn regular_mask(&self) -> Option<BTreeMap<i32, S>> {
-        self.limit.regular_mask()
-    }
-}
-
-impl<S: Clone> Scheme<S> {
     /// What the scheme is, in the words of [`Spec`](crate::Spec).
     pub fn name(&self) -> &str {
         &self.name

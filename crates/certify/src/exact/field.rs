@@ -67,16 +67,14 @@ impl Field {
 
     /// A stencil weight; `None` if it has no value or its cosine is not of this field.
     pub fn weight(&self, weight: &Exact) -> Option<Element> {
-        let parts = weight.parts()?;
-        let rational = self.rational(parts.rational.clone());
-        let (turn, of) = parts.turn;
-        if of == 1 {
-            return Some(rational);
+        let cosines = weight.cosines()?;
+        let mut sum = self.rational(cosines.rational_part().clone());
+        for (factor, turn, of) in cosines.terms() {
+            let step = (self.order as i64 % of == 0).then_some(self.order as i64 / of)?;
+            let cosine = add(&self.root(turn * step), &self.root(-turn * step));
+            sum = add(&sum, &scaled(&cosine, &(factor / BigRational::from(BigInt::from(2)))));
         }
-        let step = (self.order as i64 % of == 0).then_some(self.order as i64 / of)?;
-        let cosine = add(&self.root(turn * step), &self.root(-turn * step));
-        let half = &parts.cosine / BigRational::from(BigInt::from(2));
-        Some(add(&rational, &scaled(&cosine, &half)))
+        Some(sum)
     }
 
     /// The product.

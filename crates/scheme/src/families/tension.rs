@@ -83,7 +83,12 @@ pub(super) fn next_tension<S: Scalar>(u: S) -> S {
 
 /// The tensions of all levels, the limit's, which is 1, last.
 pub(super) fn tensions<S: Scalar>(u0: f64) -> Vec<S> {
-    let (mut tensions, mut rough, mut u) = (Vec::new(), u0, S::exact(u0));
+    tensions_from(S::exact(u0), u0)
+}
+
+/// The same from any number, of which `rough` is the value in doubles.
+pub(crate) fn tensions_from<S: Scalar>(u0: S, rough: f64) -> Vec<S> {
+    let (mut tensions, mut rough, mut u) = (Vec::new(), rough, u0);
     while rough != 1.0 && tensions.len() < MAX_LEADING {
         tensions.push(u.clone());
         // the half-angle step has 1 as its attractive fixed point and reaches it, to rounding, in finitely

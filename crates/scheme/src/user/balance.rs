@@ -12,6 +12,7 @@
 //! What differs by more is meant, and stays. [`Balance`] says how many stencils were changed and by how much.
 
 use super::PassRules;
+use super::formula::Residual;
 use crate::{Exact, Fan, Scalar, Site};
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
@@ -34,7 +35,7 @@ pub struct Balance {
 type Terms = BTreeMap<Site, BigRational>;
 
 /// Balances the special stencils of all passes.
-pub(super) fn balance(fan: Fan, passes: &mut [PassRules]) -> Balance {
+pub(super) fn balance(fan: Fan, passes: &mut [PassRules<Residual>]) -> Balance {
     let repeated = passes
         .iter()
         .flat_map(|pass| &pass.special)
@@ -67,7 +68,7 @@ pub(super) fn balance(fan: Fan, passes: &mut [PassRules]) -> Balance {
                 found.rows += 1;
                 found.largest = found.largest.max(largest.to_f64().unwrap_or(f64::INFINITY));
                 for (source, weight) in terms.iter_mut() {
-                    *weight = Exact::rational(&after[source]);
+                    *weight = Residual::Value(Exact::rational(&after[source]));
                 }
             }
         }
@@ -75,8 +76,8 @@ pub(super) fn balance(fan: Fan, passes: &mut [PassRules]) -> Balance {
     found
 }
 
-fn rational(terms: &[(Site, Exact)]) -> Option<Terms> {
-    let term = |(site, weight): &(Site, Exact)| Some((*site, weight.as_rational()?.clone()));
+fn rational(terms: &[(Site, Residual)]) -> Option<Terms> {
+    let term = |(site, weight): &(Site, Residual)| Some((*site, weight.exact()?.as_rational()?));
     terms.iter().map(term).collect()
 }
 
