@@ -5,7 +5,7 @@
 //! tabulated.
 
 use crate::error::{Accepted, Error};
-use crate::schemes::{SchemeName, Tuner, read_scheme, stem};
+use crate::schemes::{SchemeName, Tuner, stem};
 use crate::table::Table;
 use eigenring_certify::range::{Curve, RangeCertificate, recheck_range_text};
 use eigenring_certify::{Certificate, Input, Requirement, Statement, Status, recheck_text};
@@ -22,14 +22,18 @@ use std::path::{Path, PathBuf};
 /// As [`SchemeName::scheme`].
 pub fn input(scheme: &SchemeName, valence: usize, reading: Reading, tuner: &Tuner<'_>) -> Result<Input, Error> {
     match scheme {
-        SchemeName::File(path) => {
+        SchemeName::File(file) => {
             // read as a scheme first, so that mistakes are reported with the file's name
-            read_scheme(path, reading)?.exact(valence)?;
+            let scheme = file.read(reading)?;
+            scheme
+                .exact(valence)
+                .map_err(|error| Error::from(error).in_file(&file.path))?;
+            let set = scheme.parameters().iter().filter(|known| known.value != known.default);
             Ok(Input::Toml {
-                text: crate::files::read(path)?,
-                name: stem(path),
+                text: crate::files::read(&file.path)?,
+                name: stem(&file.path),
                 reading,
-                parameters: Default::default(),
+                parameters: set.map(|known| (known.name.clone(), known.value.to_string())).collect(),
             })
         }
         SchemeName::Spec(spec) => Ok(match tuner.member(spec, valence)? {

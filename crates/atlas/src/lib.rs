@@ -72,6 +72,7 @@ pub mod run;
 pub mod schemes;
 pub mod spectrum;
 pub mod stencil;
+pub mod sweep;
 pub mod table;
 pub mod tension;
 pub mod tune;

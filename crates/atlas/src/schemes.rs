@@ -13,6 +13,7 @@ use eigenring_scheme::lambda::{Bounds, Domain, Member, Plane, Source, Untabulate
 use eigenring_scheme::user::{Reading, UserScheme};
 use eigenring_scheme::{Centre, Corner, Definition, Scheme, Spec, registry};
 use eigenring_spectral::Extended;
+use eigenring_scheme::{Centre, Corner, Definition, Number, Scheme, Spec, registry};
 use eigenring_tune::sweep::{Options, Problem};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -179,18 +180,74 @@ pub enum SchemeName {
     /// A registered scheme.
     Spec(Spec),
     /// A scheme file.
-    File(PathBuf),
+    File(SchemeFile),
+}
+
+/// A scheme file, with values for its parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SchemeFile {
+    /// The file.
+    pub path: PathBuf,
+    /// Parameters that are set.
+    pub values: Vec<(String, Number)>,
 }
 
 /// How a scheme file is named.
-const FILE: &str = "file:SCHEME.toml";
+const FILE: &str = "file:SCHEME.toml[,parameter=value,..]";
+
+impl SchemeFile {
+    /// Reads what follows `file:`.
+    fn parse(text: &str) -> Result<Self, eigenring_scheme::Error> {
+        // a path may hold anything, between quotes even commas
+        let (path, rest) = match text.strip_prefix('"').and_then(|inner| inner.split_once('"')) {
+            Some((path, rest)) => (path, rest.strip_prefix(',').unwrap_or(rest)),
+            None if Path::new(text).is_file() => (text, ""),
+            None => text.split_once(',').unwrap_or((text, "")),
+        };
+        let refuse = |reason: String| eigenring_scheme::Error::Spec {
+            spec: format!("file:{text}"),
+            reason,
+            accepted: FILE.to_owned(),
+        };
+        let pieces = rest.split(',').filter(|piece| !piece.is_empty());
+        let values = pieces.map(|piece| setting(piece).map_err(refuse));
+        Ok(SchemeFile {
+            path: PathBuf::from(path),
+            values: values.collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// The file with its parameters set. It is named after its file unless it names itself.
+    ///
+    /// # Errors
+    /// As [`read_scheme`]; a parameter that the file does not have, or a value out of its range.
+    pub fn read(&self, reading: Reading) -> Result<UserScheme, Error> {
+        let scheme = read_scheme(&self.path, reading)?;
+        scheme
+            .with(&self.values)
+            .map_err(|error| Error::from(error).in_file(&self.path))
+    }
+}
+
+/// Reads `name=value`.
+///
+/// # Errors
+/// What is wrong with it, without what is accepted.
+pub fn setting(text: &str) -> Result<(String, Number), String> {
+    let (name, value) = text
+        .split_once('=')
+        .ok_or_else(|| format!("'{text}' sets no parameter"))?;
+    let value = value.trim().parse::<Number>();
+    let value = value.map_err(|_| format!("'{text}' gives no number"))?;
+    Ok((name.trim().to_owned(), value))
+}
 
 impl FromStr for SchemeName {
     type Err = eigenring_scheme::Error;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        if let Some(path) = text.strip_prefix("file:") {
-            return Ok(SchemeName::File(PathBuf::from(unquoted(path))));
+        if let Some(file) = text.strip_prefix("file:") {
+            return SchemeFile::parse(file).map(SchemeName::File);
         }
         let spec = text.parse().map_err(|error| match error {
             // a name of no family is likely that of a file
@@ -217,12 +274,6 @@ fn is_family(spec: &str) -> bool {
     registry().iter().any(|family| Some(family.name) == name)
 }
 
-/// A path without the quotes that keep its commas together.
-fn unquoted(path: &str) -> &str {
-    let inner = path.strip_prefix('"').and_then(|path| path.strip_suffix('"'));
-    inner.unwrap_or(path)
-}
-
 impl SchemeName {
     /// The scheme around a centre of the given valence. A file is read with the default [`Reading`].
     ///
@@ -231,12 +282,30 @@ impl SchemeName {
     /// lambda-scheme is not tabulated.
     pub fn scheme(&self, valence: usize, tuner: &Tuner<'_>) -> Result<Scheme<f64>, Error> {
         match self {
-            SchemeName::File(path) => Ok(read_scheme(path, Reading::default())?.scheme(valence)?),
+            SchemeName::File(file) => Ok(file.read(Reading::default())?.scheme(valence)?),
             SchemeName::Spec(spec) => match tuner.member(spec, valence)? {
                 Some(member) => Ok(member.scheme(spec.to_string())?),
                 None => Ok(spec.scheme(valence)?),
             },
         }
+    }
+
+    /// The same scheme with parameters of its file set.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] for a scheme that is no file.
+    pub fn setting(mut self, values: &[(String, Number)]) -> Result<Self, Error> {
+        match &mut self {
+            _ if values.is_empty() => {}
+            SchemeName::File(file) => file.values.extend(values.iter().cloned()),
+            SchemeName::Spec(spec) => {
+                return Err(Error::Usage {
+                    message: format!("--set has no meaning for {spec}"),
+                    accepted: "--set with file:SCHEME.toml; families have their parameters in the name".to_owned(),
+                });
+            }
+        }
+        Ok(self)
     }
 
     /// The scheme at all corners, as far as it is known without tuning. A file is read now, and no more.
@@ -246,7 +315,7 @@ impl SchemeName {
     pub fn definition(&self, reading: Reading) -> Result<Definition, Error> {
         match self {
             SchemeName::Spec(spec) => Ok(Definition::Family(spec.clone())),
-            SchemeName::File(path) => Ok(Definition::File(read_scheme(path, reading)?)),
+            SchemeName::File(file) => Ok(Definition::File(file.read(reading)?)),
         }
     }
 
@@ -375,7 +444,21 @@ mod tests {
             ["file:\"a,b.toml\"", "file:\"c=d,e.toml\",x=1", "stam:order=4"]
         );
         let name: SchemeName = "file:\"a,b.toml\"".parse().unwrap();
-        assert_eq!(name, SchemeName::File("a,b.toml".into()));
+        let file = |path: &str, values: Vec<(String, Number)>| {
+            let path = path.into();
+            SchemeName::File(SchemeFile { path, values })
+        };
+        assert_eq!(name, file("a,b.toml", vec![]));
+        let name: SchemeName = "file:\"a,b.toml\",x=1/3,y=-2".parse().unwrap();
+        let values = vec![
+            ("x".to_owned(), "1/3".parse().unwrap()),
+            ("y".to_owned(), "-2".parse().unwrap()),
+        ];
+        assert_eq!(name, file("a,b.toml", values));
+        for bad in ["file:a.toml,b", "file:a.toml,b=c", "file:a.toml,b=1/0"] {
+            let message = bad.parse::<SchemeName>().unwrap_err().to_string();
+            assert!(message.contains("accepted are file:SCHEME.toml"), "{message}");
+        }
     }
 
     #[test]
@@ -387,7 +470,7 @@ mod tests {
         ] {
             let message = text.parse::<SchemeName>().unwrap_err().to_string();
             assert!(
-                message.contains(meant) && message.ends_with("| file:SCHEME.toml"),
+                message.contains(meant) && message.ends_with("| file:SCHEME.toml[,parameter=value,..]"),
                 "{message}"
             );
         }

@@ -5,9 +5,9 @@ use crate::progress::Terminal;
 use crate::valences;
 use clap::{Args, ValueEnum};
 use eigenring_atlas::cache::Cache;
-use eigenring_atlas::schemes::{SchemeList, SchemeName, Tuner};
-use eigenring_scheme::Shape;
+use eigenring_atlas::schemes::{self, SchemeList, SchemeName, Tuner};
 use eigenring_scheme::lambda::Bounds;
+use eigenring_scheme::{Number, Shape};
 use eigenring_tune::objective::{Normalisation, Settings};
 use eigenring_tune::search::Starts;
 use eigenring_tune::sweep::Options;
@@ -142,6 +142,29 @@ impl CornerArgs {
     }
 }
 
+/// Values for the parameters of scheme files.
+#[derive(Args, Clone, Debug)]
+pub struct SchemeSettings {
+    /// Set a parameter of a scheme file; may be repeated. The same as file:SCHEME.toml,NAME=VALUE
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = setting, allow_hyphen_values = true)]
+    values: Vec<(String, Number)>,
+}
+
+/// Reads a value of a parameter.
+fn setting(text: &str) -> Result<(String, Number), String> {
+    schemes::setting(text).map_err(|reason| format!("{reason}: accepted is NAME=VALUE with a number or a fraction"))
+}
+
+impl SchemeSettings {
+    /// The scheme with these values.
+    ///
+    /// # Errors
+    /// A scheme that is no file.
+    pub fn apply(&self, scheme: SchemeName) -> Result<SchemeName, Error> {
+        Ok(scheme.setting(&self.values)?)
+    }
+}
+
 /// Schemes as a list, or one by one.
 #[derive(Args, Clone, Debug)]
 pub struct Schemes {
@@ -149,18 +172,32 @@ pub struct Schemes {
     /// stands in quotes: file:"a,b.toml"
     #[arg(long = "schemes", value_name = "SPEC,SPEC,..")]
     lists: Vec<SchemeList>,
+    #[command(flatten)]
+    settings: SchemeSettings,
 }
 
 impl Schemes {
-    /// All that were given, each once.
-    pub fn all(&self) -> Vec<SchemeName> {
+    /// All that were given, each once. Parameters are set in the files among them.
+    ///
+    /// # Errors
+    /// Parameters, and no file.
+    pub fn all(&self) -> Result<Vec<SchemeName>, Error> {
         let mut all: Vec<SchemeName> = Vec::new();
+        let has_file = self
+            .lists
+            .iter()
+            .flat_map(|list| &list.0)
+            .any(|scheme| matches!(scheme, SchemeName::File(_)));
         for scheme in self.lists.iter().flat_map(|list| &list.0) {
-            if !all.contains(scheme) {
-                all.push(scheme.clone());
+            let scheme = match scheme {
+                SchemeName::Spec(_) if has_file => scheme.clone(),
+                _ => self.settings.apply(scheme.clone())?,
+            };
+            if !all.contains(&scheme) {
+                all.push(scheme);
             }
         }
-        all
+        Ok(all)
     }
 
     /// Whether any was given.

@@ -34,6 +34,13 @@ impl Number {
         &self.0
     }
 
+    /// The numbers from this one to another in so many equal steps, both ends included.
+    pub fn steps_to(&self, last: &Self, steps: u32) -> Vec<Self> {
+        let step = (&last.0 - &self.0) / BigRational::from_integer(steps.max(1).into());
+        let value = |index: u32| Number(&self.0 + &step * BigRational::from_integer(index.into()));
+        (0..=steps).map(value).collect()
+    }
+
     /// The number with the other sign.
     pub fn negated(&self) -> Self {
         Number(-&self.0)

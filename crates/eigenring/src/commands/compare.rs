@@ -64,6 +64,8 @@ impl Arguments {
                 .render(format),
         };
         self.output.emit(&printed)?;
+        let rows = compare(&self.schemes.all()?, self.valences.closed()?, &tuner())?;
+        self.output.emit(&table(rows).render(format))?;
         Ok(ExitCode::SUCCESS)
     }
 }

@@ -1,6 +1,6 @@
 //! `eigenring matrix`: the local matrix in the formats of other programs, with its numbering.
 
-use crate::args::{self, CornerArgs};
+use crate::args::{self, CornerArgs, SchemeSettings};
 use crate::error::Error;
 use crate::files;
 use crate::output::{Extension, agreed};
@@ -27,6 +27,8 @@ pub struct Arguments {
     /// The scheme: see 'eigenring --help'
     #[arg(long, value_name = "SPEC")]
     scheme: SchemeName,
+    #[command(flatten)]
+    settings: SchemeSettings,
     #[command(flatten)]
     valence: OptionalValence,
     #[command(flatten)]
@@ -76,8 +78,9 @@ impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         self.threads.start()?;
         let (shape, steps) = self.corner.shape(self.valence.valence)?;
-        let corner = shape.corner(self.scheme.centre()?, steps)?;
-        let scheme = self.scheme.around(&corner, &args::tuner())?;
+        let scheme = self.settings.apply(self.scheme)?;
+        let corner = shape.corner(scheme.centre()?, steps)?;
+        let scheme = scheme.around(&corner, &args::tuner())?;
         let format = agreed(self.format, self.out.as_deref())?.unwrap_or_default();
         let matrix = LocalMatrix::new(&scheme, self.rings, self.level)?;
         let bytes = match format {

@@ -9,6 +9,7 @@ mod limit;
 mod make;
 mod matrix;
 mod mesh;
+mod new_scheme;
 mod objective;
 mod plot;
 mod render;
@@ -63,6 +64,7 @@ enum Command {
     Render(render::Arguments),
     Plot(plot::Arguments),
     Reproduce(reproduce::Arguments),
+    NewScheme(new_scheme::Arguments),
     Completions(completions::Arguments),
 }
 
@@ -89,6 +91,7 @@ impl Cli {
             Command::Render(arguments) => arguments.run(),
             Command::Plot(arguments) => arguments.run(),
             Command::Reproduce(arguments) => arguments.run(),
+            Command::NewScheme(arguments) => arguments.run(),
             Command::Completions(arguments) => arguments.run(),
         }
     }

@@ -1,10 +1,10 @@
 //! `eigenring spectrum`: eigenvalues, Fourier indices and limit stencils of any scheme or matrix.
 
-use crate::args::{self, CornerArgs};
+use crate::args::{self, CornerArgs, SchemeSettings};
 use crate::error::Error;
 use crate::files;
 use crate::output::Output;
-use crate::progress::note;
+use crate::progress::{Terminal, note};
 use crate::threads::Threads;
 use crate::valences::OptionalValence;
 use clap::{ArgGroup, Args, ValueEnum};
@@ -13,6 +13,8 @@ use eigenring_atlas::given::{Given, Matrix, Rotation};
 use eigenring_atlas::numbers::{self, Called};
 use eigenring_atlas::schemes::SchemeName;
 use eigenring_atlas::spectrum::Analysis;
+use eigenring_atlas::spectrum::{Analysis, parse_matrix};
+use eigenring_atlas::sweep::{self, Sweep, spectra};
 use eigenring_atlas::table::{Format, pretty};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -28,6 +30,7 @@ use std::process::ExitCode;
 #[command(group = ArgGroup::new("source").required(true))]
 #[command(
     after_help = "Examples:\n  eigenring spectrum --scheme catmull-clark -N 5\n  eigenring spectrum --scheme tension:order=6,u0=2 -N 7 --level 0 --format json\n  eigenring spectrum --scheme catmull-clark --fan 3           a boundary vertex with three faces\n  eigenring spectrum --scheme stam:order=6 --dart -N 5 --cs 1\n  eigenring spectrum --scheme catmull-clark --knots 1,2,1,3 --next 1,1,1,1\n  eigenring spectrum --matrix S.csv                           a matrix of your own"
+    after_help = "Examples:\n  eigenring spectrum --scheme catmull-clark -N 5\n  eigenring spectrum --scheme tension:order=6,u0=2 -N 7 --level 0 --format json\n  eigenring spectrum --scheme catmull-clark --fan 3           a boundary vertex with three faces\n  eigenring spectrum --scheme stam:order=6 --dart -N 5 --cs 1\n  eigenring spectrum --scheme catmull-clark --knots 1,2,1,3 --next 1,1,1,1\n  eigenring spectrum --scheme file:my.toml --sweep a=1..2:20 -N 5\n  eigenring spectrum --matrix S.csv -N 5"
 )]
 pub struct Arguments {
     /// The scheme: see 'eigenring --help'
@@ -41,6 +44,16 @@ pub struct Arguments {
     /// within the sector, as 'eigenring matrix --numbering' writes it
     #[arg(long, value_name = "FILE", conflicts_with = "scheme")]
     numbering: Option<PathBuf>,
+    #[command(flatten)]
+    settings: SchemeSettings,
+    /// Spectra along a parameter of a scheme file, from A to B in a number of steps
+    #[arg(
+        long,
+        value_name = "NAME=A..B:STEPS",
+        allow_hyphen_values = true,
+        conflicts_with = "matrix"
+    )]
+    sweep: Option<Sweep>,
     #[command(flatten)]
     valence: OptionalValence,
     #[command(flatten)]
@@ -80,6 +93,19 @@ impl Arguments {
         let format = self.output.format()?;
         self.threads.start()?;
         let answer = match (&self.scheme, &self.matrix) {
+        let scheme = self.scheme.map(|scheme| self.settings.apply(scheme)).transpose()?;
+        if let (Some(sweep), Some(scheme)) = (&self.sweep, &scheme) {
+            self.corner.refuse("with --sweep")?;
+            let valence = self.valence.valence.ok_or_else(valences::missing)?;
+            let found = spectra(scheme, sweep, valence, [self.rings, self.level], &Terminal)?;
+            let text = match format {
+                Format::Json => pretty(&sweep::json(sweep, &found)),
+                format => sweep::table(sweep, &found).render(format),
+            };
+            self.output.emit(&text)?;
+            return Ok(ExitCode::SUCCESS);
+        }
+        let analysis = match (&scheme, &self.matrix) {
             (Some(scheme), _) => {
                 let (shape, steps) = self.corner.shape(self.valence.valence)?;
                 let corner = shape.corner(scheme.centre()?, steps)?;

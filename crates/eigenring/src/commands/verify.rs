@@ -3,7 +3,7 @@
 mod all;
 
 use super::{RESULTS, UNSTORED};
-use crate::args::{self, CornerArgs};
+use crate::args::{self, CornerArgs, SchemeSettings};
 use crate::error::Error;
 use crate::files;
 use crate::output::FormatOption;
@@ -37,6 +37,8 @@ pub struct Arguments {
     /// those of the splines
     #[arg(long, value_name = "SPEC", group = "what", conflicts_with_all = ["recheck", "all"])]
     scheme: Option<SchemeName>,
+    #[command(flatten)]
+    settings: SchemeSettings,
     /// Valences: numbers and ranges, such as 5 or 3,5..8, with a certificate for each; may be left out with
     /// --fan and --knots, which fix it. With --all: those of the lambda-scheme, by default 3..20
     #[arg(
@@ -159,8 +161,9 @@ impl Arguments {
                 .collect(),
             None => self.corner.shape(None).map(|corner| vec![corner]),
         }?;
-        let scheme = self.scheme.as_ref();
+        let scheme = self.scheme.clone();
         let scheme = scheme.ok_or_else(|| Error::usage("no scheme is given", "--scheme SPEC"))?;
+        let scheme = &self.settings.apply(scheme)?;
         if self.exact && !matches!(scheme, SchemeName::File(_)) {
             return Err(Error::usage(
                 "--exact has no meaning for a scheme that is built in, whose weights are exact",

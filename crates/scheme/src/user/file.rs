@@ -1,16 +1,11 @@
 //! The form of a scheme file: what TOML may hold, and its translation into rules with formulas.
 
-<<<<<<< HEAD
-use super::{PassRules, Rules};
-use crate::{Error, Exact, Fan, Lattice, Line, Number, OneRing, RuleFault, Site, did_you_mean};
-=======
 use super::formula::{self, Formula, Scope};
 use super::parameters::Parameter;
 use super::rules::{Form, PassForm, Sectors, SpecialForm, TermForm};
-use crate::{Error, Lattice, Line, Number, OneRing, RuleFault};
+use crate::{Error, Lattice, Line, Number, OneRing, RuleFault, did_you_mean};
 use std::collections::BTreeMap;
 use std::sync::Arc;
->>>>>>> 296e55a (Scheme files with formulas and parameters)
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -572,10 +567,6 @@ impl Reader<'_> {
         }
     }
 
-<<<<<<< HEAD
-    fn site(&self, node: &Node, fan: Fan, lattice: Lattice, sector: i64) -> Result<Site, Error> {
-        const PAIR: &str = "a pair of half steps [x, y]: [2, 0] is the next vertex on the spoke, [1, 1] the next face";
-=======
     fn special(&self, entry: &Node, place: &str, [from, to]: [Lattice; 2]) -> Result<SpecialForm, Error> {
         let table = self.table(entry, "a special point", &["at", "sector", "stencil"])?;
         let node = self.get(entry, table, "at")?;
@@ -644,8 +635,7 @@ impl Reader<'_> {
     }
 
     fn site(&self, node: &Node, lattice: Lattice) -> Result<[i32; 2], Error> {
-        const PAIR: &str = "a pair of half steps [x, y]";
->>>>>>> 296e55a (Scheme files with formulas and parameters)
+        const PAIR: &str = "a pair of half steps [x, y]: [2, 0] is the next vertex on the spoke, [1, 1] the next face";
         let &[x, y] = self.array(node, "at", PAIR)?.as_slice() else {
             return Err(self.error(node, format!("at: accepted is {PAIR}")));
         };
