@@ -7,11 +7,12 @@
 use crate::error::{Accepted, Error};
 use crate::schemes::{SchemeName, Tuner, stem};
 use crate::table::Table;
+use eigenring_certify::parameter::{ParameterCertificate, recheck_parameter_text};
 use eigenring_certify::range::{Curve, RangeCertificate, recheck_range_text};
 use eigenring_certify::{Certificate, Input, Requirement, Statement, Status, recheck_text};
 use eigenring_scheme::lambda::LambdaTable;
 use eigenring_scheme::user::Reading;
-use eigenring_scheme::{Shape, Spec};
+use eigenring_scheme::{Number, Shape, Spec};
 use eigenring_tune::study::{LAMBDA_A, LAMBDA_M};
 use std::path::{Path, PathBuf};
 
@@ -39,6 +40,38 @@ pub fn input(scheme: &SchemeName, valence: usize, reading: Reading, tuner: &Tune
         SchemeName::Spec(spec) => Ok(match tuner.member(spec, valence)? {
             Some(member) => Input::member(&member),
             None => Input::from_spec(spec, valence)?,
+        }),
+    }
+}
+
+/// What is certified of a scheme file for every value of a parameter from one end of a range to the other.
+///
+/// # Errors
+/// As [`input`]; [`Error::Usage`] for a scheme that is no file.
+pub fn ranged(
+    scheme: &SchemeName,
+    valence: usize,
+    (parameter, ends): &(String, [Number; 2]),
+    reading: Reading,
+    tuner: &Tuner<'_>,
+) -> Result<Input, Error> {
+    match input(scheme, valence, reading, tuner)? {
+        Input::Toml {
+            text,
+            name,
+            reading,
+            parameters,
+        } => Ok(Input::TomlRange {
+            text,
+            name,
+            reading,
+            parameters,
+            parameter: parameter.clone(),
+            ends: ends.each_ref().map(Number::to_string),
+        }),
+        _ => Err(Error::Usage {
+            message: "--range is for the parameters of a scheme file".to_owned(),
+            accepted: "--scheme file:SCHEME.toml; --lambda-range for the lambda-scheme".to_owned(),
         }),
     }
 }
@@ -291,8 +324,10 @@ pub fn confirm(path: &Path, most: usize) -> Result<Confirmation, Error> {
 }
 
 fn confirm_text(path: &Path, text: &str, most: usize) -> Result<Confirmation, Error> {
-    // a certificate of a range has tiles, one of a scheme an input
-    let is_range = serde_json::from_str::<serde_json::Value>(text).is_ok_and(|value| value.get("tiles").is_some());
+    // a certificate of a range has tiles, one of a scheme an input, and one of a range of a parameter both
+    let value = serde_json::from_str::<serde_json::Value>(text).unwrap_or_default();
+    let is_range = value.get("tiles").is_some();
+    let is_parameter = is_range && value.get("input").is_some();
     let mut remarks = Vec::new();
     let check_valence = |valence: usize| match valence {
         _ if valence <= most => Ok(()),
@@ -301,7 +336,16 @@ fn confirm_text(path: &Path, text: &str, most: usize) -> Result<Confirmation, Er
             Accepted::Is(format!("3 to {most}")),
         )),
     };
-    let (what, valence, intact) = if is_range {
+    let (what, valence, intact) = if is_parameter {
+        check_valence(ParameterCertificate::from_json(text)?.valence)?;
+        let (certificate, found) = recheck_parameter_text(text)?;
+        if !found.covered {
+            remarks.push("the tiles do not cover the range".to_owned());
+        }
+        let different = found.different.iter();
+        remarks.extend(different.map(|[first, last]| format!("{first}..{last}: not as claimed")));
+        (certificate.input.origin(), certificate.valence, found.intact)
+    } else if is_range {
         check_valence(RangeCertificate::from_json(text)?.valence)?;
         let (certificate, found) = recheck_range_text(text)?;
         if !found.covered {

@@ -2,8 +2,11 @@
 
 use crate::certificates::Confirmation;
 use crate::table::{Format, Table, WIDTH, pretty, short};
+use crate::table::{Format, Table, pretty, short};
+use eigenring_certify::parameter::{ParameterCertificate, Stretch};
 use eigenring_certify::range::{RangeCertificate, Segment};
 use eigenring_certify::{Certificate, Check, Interval, Requirement, Statement, Status};
+use eigenring_scheme::Number;
 use serde_json::{Value, json};
 
 fn enclosure(value: Option<Interval>) -> Option<Value> {
@@ -227,4 +230,69 @@ pub fn rechecks(rows: &[Confirmation], format: Format) -> String {
         ]);
     }
     table.render(format)
+}
+
+/// The status of all stretches together.
+fn over_parameter(stretches: &[Stretch]) -> Status {
+    let all = stretches.iter().map(|stretch| stretch.status);
+    all.reduce(Status::and).unwrap_or(Status::Undecided)
+}
+
+/// Certificates of a scheme file over a range of a parameter.
+pub fn parameters(certificates: &[ParameterCertificate], requirement: Requirement, format: Format) -> String {
+    let number = |text: &String| text.parse::<Number>().map_or(f64::NAN, |number| number.value());
+    let named = |certificate: &ParameterCertificate| {
+        let (parameter, ends) = certificate.parameter()?;
+        Some((parameter.to_owned(), ends.each_ref().map(number)))
+    };
+    let table = |certificate: &ParameterCertificate| {
+        let mut table = Table::new(["statement", "from", "to", "status", "remark"]);
+        for stretch in certificate.required(requirement) {
+            let [from, to] = stretch.ends.each_ref().map(number);
+            table.push(vec![
+                requirement.name().into(),
+                from.into(),
+                to.into(),
+                stretch.status.to_string().into(),
+                stretch.witness.map(|witness| witness.text).unwrap_or_default().into(),
+            ]);
+        }
+        table
+    };
+    let json = |certificate: &ParameterCertificate| {
+        let required = certificate.required(requirement);
+        let segments: Vec<Value> = required
+            .iter()
+            .map(|stretch| {
+                let witness = stretch.witness.as_ref().map(|witness| &witness.text);
+                json!({ "range": stretch.ends.each_ref().map(number), "status": stretch.status, "witness": witness })
+            })
+            .collect();
+        let (parameter, range) = named(certificate).unzip();
+        let status = over_parameter(&required);
+        json!({
+            "scheme": certificate.input.name(),
+            "valence": certificate.valence,
+            "parameter": parameter,
+            "range": range,
+            "require": requirement.name(),
+            "status": status,
+            "holds": status == Status::Proven,
+            "segments": segments,
+        })
+    };
+    let text = |certificate: &ParameterCertificate| {
+        format!(
+            "{}, N = {}, every value of the parameter ({} tiles)\n\n{}\n{} is {}\n",
+            certificate.input.name(),
+            certificate.valence,
+            certificate.tiles.len(),
+            table(certificate).render(Format::Text),
+            requirement.name(),
+            over_parameter(&certificate.required(requirement)),
+        )
+    };
+    several(certificates, format, json, text, |certificate| {
+        (certificate.valence, table(certificate))
+    })
 }

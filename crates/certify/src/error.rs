@@ -52,6 +52,12 @@ pub enum Error {
         /// Largest accepted end.
         upper: f64,
     },
+    /// A range of a parameter that is empty, or none of a scheme file.
+    #[error("the range {}..{} of a parameter: accepted is A..B with A < B, of a parameter of a scheme file", ends[0], ends[1])]
+    ParameterRange {
+        /// Its ends, as text.
+        ends: [String; 2],
+    },
     /// A requirement that is not known.
     #[error("requirement '{name}' is not known: accepted are {accepted}")]
     Requirement {

@@ -61,6 +61,23 @@ pub enum Input {
         #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
         parameters: BTreeMap<String, String>,
     },
+    /// A scheme file for every value of one of its parameters from one number to another: what is proven holds
+    /// for each of them, what is refuted for none.
+    TomlRange {
+        /// Its text.
+        text: String,
+        /// The name used if the text gives none.
+        name: String,
+        /// How its weights are read.
+        reading: Reading,
+        /// The parameters that have another value than their default.
+        #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+        parameters: BTreeMap<String, String>,
+        /// The parameter.
+        parameter: String,
+        /// The ends of its range.
+        ends: [String; 2],
+    },
     /// One-ring weights that were computed in doubles.
     Floating {
         /// f1, f2, f3, d1, d2, e1, e2, alpha, beta.
@@ -114,6 +131,18 @@ impl Input {
                 reading,
                 parameters,
             } => file(text, name, *reading, parameters).map_or_else(|_| name.clone(), |scheme| scheme.name()),
+            Input::TomlRange {
+                text,
+                name,
+                reading,
+                parameters,
+                parameter,
+                ends: [first, last],
+            } => {
+                let file = file(text, name, *reading, parameters);
+                let name = file.map_or_else(|_| name.clone(), |scheme| scheme.name());
+                format!("{name},{parameter}={first}..{last}")
+            }
             Input::Floating { .. } => "one-ring weights in doubles".to_owned(),
         }
     }
@@ -134,7 +163,7 @@ impl Input {
     /// name of ours.
     pub fn origin(&self) -> String {
         match self {
-            Input::Toml { .. } => format!("file:{}", self.name()),
+            Input::Toml { .. } | Input::TomlRange { .. } => format!("file:{}", self.name()),
             _ => self.name(),
         }
     }
@@ -214,6 +243,17 @@ impl Input {
                     balance: file.balance(valence)?,
                 })
             }
+            Input::TomlRange {
+                text,
+                name,
+                reading,
+                parameters,
+                parameter,
+                ends,
+            } => {
+                let file = file(text, name, *reading, parameters)?;
+                ranged_subject(&file, &self.name(), valence, parameter, ends)
+            }
             Input::Floating { weights } => {
                 let [f1, f2, f3, d1, d2, e1, e2, alpha, beta] = *weights;
                 let weights = OneRing {
@@ -258,6 +298,47 @@ fn file(
     let values = parameters.iter().map(|(name, value)| Ok((name, value.parse()?)));
     let values: Vec<(&String, Number)> = values.collect::<Result<_, eigenring_scheme::Error>>()?;
     UserScheme::parse(text, name, reading)?.with(&values)
+}
+
+/// The scheme for a range of a parameter: the weights are enclosures of what they are at any value in it.
+fn ranged_subject(
+    file: &UserScheme,
+    name: &str,
+    valence: usize,
+    parameter: &str,
+    ends: &[String; 2],
+) -> Result<Subject, Error> {
+    let [first, last] = [ends[0].parse::<Number>()?, ends[1].parse::<Number>()?];
+    // both ends are accepted values
+    let at_first = file.with(&[(parameter, first.clone())])?;
+    file.with(&[(parameter, last.clone())])?;
+    let free = at_first.freeing(&[parameter])?;
+    let value = |number: &Number| -> Interval { number.to() };
+    let range = Interval::new(value(&first).lo(), value(&last).hi());
+    let range = range.ok_or_else(|| Error::ParameterRange { ends: ends.clone() })?;
+    let values: Vec<Interval> = free
+        .parameters()
+        .iter()
+        .map(|known| {
+            if known.name == parameter {
+                range
+            } else {
+                known.value.to()
+            }
+        })
+        .collect();
+    let affine = file.is_affine_in(parameter, valence, [&first, &last])?;
+    Ok(Subject {
+        scheme: free.scheme_with(valence, &values)?.named(name),
+        // weights that depend on the parameter have no exact value; without the identity of the row sums
+        // nothing is to be taken for granted
+        exact: if affine { None } else { Some(free.exact(valence)?) },
+        identities: None,
+        floating: false,
+        tail: None,
+        affine_levels: false,
+        balance: Balance::default(),
+    })
 }
 
 /// A scheme at one valence, ready for proofs.

@@ -38,6 +38,7 @@ pub mod map;
 mod mean_value;
 mod patches;
 mod proof;
+pub mod parameter;
 pub mod range;
 mod recheck;
 mod rows;

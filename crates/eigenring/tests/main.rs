@@ -7,6 +7,7 @@ mod corners;
 mod curve;
 mod destinations;
 mod errors;
+mod formulas;
 mod on_demand;
 mod own_matrices;
 mod plot;

@@ -11,12 +11,14 @@ use crate::progress::{Terminal, note};
 use crate::threads::Threads;
 use crate::valences::{self, MAX_VALENCE, Valences};
 use clap::{ArgGroup, Args, ValueEnum};
-use eigenring_atlas::certificates::{beside, confirm, curve};
+use eigenring_atlas::certificates::{beside, confirm, curve, ranged};
 use eigenring_atlas::progress::each;
 use eigenring_atlas::report;
 use eigenring_atlas::schemes::SchemeName;
+use eigenring_certify::parameter::{self, ParameterCertificate};
 use eigenring_certify::range::{Limits, RangeCertificate, prove_range};
 use eigenring_certify::{Requirement, Status, certify};
+use eigenring_scheme::Number;
 use eigenring_scheme::user::Reading;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -55,6 +57,9 @@ pub struct Arguments {
     /// The lambda-scheme for every lambda from A to B
     #[arg(long, value_name = "A..B", group = "what", value_parser = range, allow_hyphen_values = true, conflicts_with_all = ["recheck", "all"])]
     lambda_range: Option<[f64; 2]>,
+    /// A scheme file for every value of a parameter from A to B
+    #[arg(long = "range", value_name = "NAME=A..B", value_parser = parameter_range, allow_hyphen_values = true, requires = "scheme", conflicts_with_all = ["recheck", "all", "lambda_range"])]
+    parameter: Option<(String, [Number; 2])>,
     /// What must be proven
     #[arg(long, value_enum, default_value_t, conflicts_with_all = ["recheck", "all"])]
     require: Required,
@@ -120,6 +125,17 @@ fn range(text: &str) -> Result<[f64; 2], String> {
     if start < end { Ok([start, end]) } else { Err(refuse()) }
 }
 
+/// Reads `NAME=A..B`.
+fn parameter_range(text: &str) -> Result<(String, [Number; 2]), String> {
+    let parts = || {
+        let (name, range) = text.split_once('=')?;
+        let (first, last) = range.split_once("..")?;
+        let ends: [Number; 2] = [first.trim().parse().ok()?, last.trim().parse().ok()?];
+        (ends[0].rational() < ends[1].rational()).then(|| (name.trim().to_owned(), ends))
+    };
+    parts().ok_or_else(|| "accepted is NAME=A..B with A < B, such as a=0.2..0.4".to_owned())
+}
+
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         // the parser lets an option pass whose partner conflicts with another one
@@ -143,6 +159,10 @@ impl Arguments {
             return all::make(valences, &out, self.format.format());
         }
         let valences = self.valences.as_ref().map(Valences::closed).transpose()?;
+        if let Some(range) = &self.parameter {
+            self.corner.refuse("over a range of a parameter")?;
+            return self.over_parameter(valences.ok_or_else(valences::missing)?, range);
+        }
         match self.lambda_range {
             Some(lambda) => {
                 self.corner.refuse("over a range of lambda")?;
@@ -212,6 +232,31 @@ impl Arguments {
             note("holds for weights that are results of rounding; of the exact scheme nothing is proven");
         }
         Ok(exit(statuses.iter().all(|&status| status == Status::Proven)))
+    }
+
+    fn over_parameter(&self, valences: &[usize], range: &(String, [Number; 2])) -> Result<ExitCode, Error> {
+        let requirement: Requirement = self.require.into();
+        let scheme = self.scheme.clone();
+        let scheme = scheme.ok_or_else(|| Error::usage("no scheme is given", "--scheme SPEC"))?;
+        let scheme = self.settings.apply(scheme)?;
+        let reading = if self.exact { Reading::Exact } else { Reading::Balanced };
+        let inputs = valences
+            .iter()
+            .map(|&valence| Ok((valence, ranged(&scheme, valence, range, reading, &args::tuner())?)));
+        let inputs: Vec<_> = inputs.collect::<Result<_, Error>>()?;
+        let certificates = each(&Terminal, "ranges", &inputs, |(valence, input)| {
+            parameter::prove(input.clone(), *valence, requirement, parameter::Limits::default())
+        })?;
+        self.store(&certificates, |certificate| {
+            (certificate.valence, certificate.to_line())
+        })?;
+        let text = report::parameters(&certificates, requirement, self.format.format());
+        files::emit(None, text.as_bytes())?;
+        let proven = |certificate: &ParameterCertificate| {
+            let required = certificate.required(requirement);
+            required.iter().all(|stretch| stretch.status == Status::Proven)
+        };
+        Ok(exit(certificates.iter().all(proven)))
     }
 
     fn over_range(&self, valences: &[usize], lambda: [f64; 2]) -> Result<ExitCode, Error> {

@@ -1,7 +1,7 @@
 //! The scheme of a file at one valence.
 
 use super::file::Contents;
-use super::formula::{Bindings, Context, Residual};
+use super::formula::{Bindings, Context, Residual, sum_degrees};
 use super::rules::{Evaluator, Form, PassForm, Rules, of_each, order};
 use super::{Balance, PassRules, Reading, balance};
 use crate::families::{catmull_clark_weights, tensions_from};
@@ -129,6 +129,46 @@ impl Entry {
         let mut all = true;
         self.limit.map(|weight| all &= self.exact_weight(weight).has_value());
         all
+    }
+
+    /// A bound for the degree of the numerators of all sums of weights, less 1, as rational functions of the
+    /// open parameters; `None` where they are no rational functions, or levels differ.
+    pub(super) fn sums_degree(&self) -> Option<usize> {
+        if self.leading.is_some() {
+            return None;
+        }
+        let mut names = vec![None; self.names.len()];
+        for &index in &self.order {
+            names[index] = self.names[index].as_ref().and_then(|weight| weight.degrees(&names));
+        }
+        let of = |weights: &mut dyn Iterator<Item = &Residual>| {
+            // the sum and -1
+            sum_degrees(weights.map(|weight| weight.degrees(&names)).chain([Some([0, 0])]))
+        };
+        let mut largest = 0;
+        for pass in self.limit.passes() {
+            for stencil in pass.special().values() {
+                largest = largest.max(of(&mut stencil.terms().iter().map(|(_, weight)| weight))?[0]);
+            }
+            for taps in pass.all_lines().flat_map(|line| line.classes()) {
+                largest = largest.max(of(&mut taps.iter().map(|(_, weight)| weight))?[0]);
+            }
+        }
+        Some(largest)
+    }
+
+    /// Whether the weights of every point that a pass makes sum to 1.
+    pub(super) fn is_affine(&self) -> bool {
+        let one = |weights: &mut dyn Iterator<Item = &Residual>| {
+            let sum = weights.fold(Exact::zero(), |sum, weight| sum + self.exact_weight(weight));
+            sum.same(&Exact::one())
+        };
+        self.limit.passes().iter().all(|pass| {
+            let mut stencils = pass.special().values();
+            let mut classes = pass.all_lines().flat_map(|line| line.classes());
+            stencils.all(|stencil| one(&mut stencil.terms().iter().map(|(_, weight)| weight)))
+                && classes.all(|taps| one(&mut taps.iter().map(|(_, weight)| weight)))
+        })
     }
 
     /// The scheme in exact numbers.

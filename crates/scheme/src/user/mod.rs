@@ -315,6 +315,35 @@ impl UserScheme {
         Ok(self.entry(valence)?.scheme(&self.name(), values))
     }
 
+    /// Whether the weights of every point sum to 1 for all values of a parameter at which they have a value.
+    ///
+    /// Sums, less 1, are rational functions of the parameter, with a bound for the degree of the numerator by
+    /// the form of the formulas. One that is zero at more values than that is zero: the values are taken
+    /// between the given ends, in exact numbers. False says nothing.
+    ///
+    /// # Errors
+    /// As [`UserScheme::with`] and [`UserScheme::exact`].
+    pub fn is_affine_in(&self, parameter: &str, valence: usize, [first, last]: [&Number; 2]) -> Result<bool, Error> {
+        const MAX_DEGREE: usize = 200;
+        let free = self.freeing(&[parameter])?;
+        let degree = match free.entry(valence)?.sums_degree() {
+            Some(degree) if degree <= MAX_DEGREE && first != last => degree,
+            _ => return Ok(false),
+        };
+        for value in first.steps_to(last, degree.max(1) as u32) {
+            let set = self.with(&[(parameter, value)])?;
+            if !set.entry(valence)?.is_affine() {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Whether all levels are alike.
+    pub fn is_stationary(&self) -> bool {
+        self.contents.tension.is_none()
+    }
+
     /// What was balanced at a valence.
     ///
     /// # Errors

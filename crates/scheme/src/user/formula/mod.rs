@@ -22,7 +22,7 @@ pub(super) mod residual;
 
 pub(super) use evaluate::Context;
 pub(super) use parse::parse;
-pub(super) use residual::{Bindings, Residual};
+pub(super) use residual::{Bindings, Residual, sum_degrees};
 
 use num_rational::BigRational;
 

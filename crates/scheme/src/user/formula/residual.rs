@@ -64,6 +64,29 @@ impl Residual {
         }
     }
 
+    /// Bounds for the degrees of numerator and denominator of the weight as a rational function of the open
+    /// parameters, given those of the named weights; `None` where there are roots or the level's tension.
+    pub(in crate::user) fn degrees(&self, names: &[Option<[usize; 2]>]) -> Option<[usize; 2]> {
+        match self {
+            Residual::Value(_) => Some([0, 0]),
+            Residual::Parameter(_) => Some([1, 0]),
+            Residual::Tension => None,
+            Residual::Name(index) => names.get(*index).copied().flatten(),
+            Residual::Operation(operation) => match &**operation {
+                Operation::Sum(parts) => sum_degrees(parts.iter().map(|part| part.degrees(names))),
+                Operation::Product(parts) => parts.iter().try_fold([0, 0], |[p, q], part| {
+                    let [a, b] = part.degrees(names)?;
+                    Some([p + a, q + b])
+                }),
+                Operation::Quotient(a, b) => {
+                    let ([p, q], [r, s]) = (a.degrees(names)?, b.degrees(names)?);
+                    Some([p + s, q + r])
+                }
+                Operation::Sqrt(_) => None,
+            },
+        }
+    }
+
     /// How much work the sum and the product with another number are, in machine words.
     pub(in crate::user) fn work(&self, other: &Self) -> [usize; 2] {
         let size = |residual: &Self| residual.exact().map_or((1, 1), Exact::size);
@@ -134,6 +157,14 @@ impl Residual {
         }
         Residual::Operation(Arc::new(Operation::Sqrt(a)))
     }
+}
+
+/// The degrees of a sum over a common denominator, which is the product of all.
+pub(in crate::user) fn sum_degrees(parts: impl Iterator<Item = Option<[usize; 2]>>) -> Option<[usize; 2]> {
+    let parts: Vec<[usize; 2]> = parts.collect::<Option<_>>()?;
+    let all: usize = parts.iter().map(|[_, q]| q).sum();
+    let largest = parts.iter().map(|[p, q]| p + all - q).max().unwrap_or(0);
+    Some([largest, all])
 }
 
 impl Same for Residual {
