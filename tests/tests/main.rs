@@ -8,6 +8,7 @@ mod corners;
 mod curves;
 mod curves_exact;
 mod embedded_table;
+mod formula_ranges;
 mod formula_schemes;
 mod generated;
 mod index;

@@ -319,7 +319,7 @@ impl UserScheme {
     ///
     /// Sums, less 1, are rational functions of the parameter, with a bound for the degree of the numerator by
     /// the form of the formulas. One that is zero at more values than that is zero: the values are taken
-    /// between the given ends, in exact numbers. False says nothing.
+    /// between the given ends, in exact numbers, and nothing is balanced. False says nothing.
     ///
     /// # Errors
     /// As [`UserScheme::with`] and [`UserScheme::exact`].
@@ -330,8 +330,13 @@ impl UserScheme {
             Some(degree) if degree <= MAX_DEGREE && first != last => degree,
             _ => return Ok(false),
         };
+        // balancing would make sums 1 that are not
+        let written = UserScheme {
+            reading: Reading::Exact,
+            ..self.clone()
+        };
         for value in first.steps_to(last, degree.max(1) as u32) {
-            let set = self.with(&[(parameter, value)])?;
+            let set = written.with(&[(parameter, value)])?;
             if !set.entry(valence)?.is_affine() {
                 return Ok(false);
             }
