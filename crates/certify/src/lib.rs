@@ -2,7 +2,8 @@
 //!
 //! [`certify`] takes an exact scheme ([`Input`]) at a valence and says of each of a list of statements
 //! ([`Statement`]) whether it is proven, refuted, open, or only computed. [`recheck`] proves a stored
-//! [`Certificate`] again; [`range`] does both for a continuous range of lambda.
+//! [`Certificate`] again; [`range`] does both for a continuous range of lambda, [`parameter`] for one of a
+//! parameter of a scheme file.
 //!
 //! **Search and proof are apart.** [`find`] and [`map::find`] look for evidence in doubles: approximate
 //! eigenvectors, subdivisions, places. The checks take scheme and evidence and use nothing but [`Interval`]s,
