@@ -2,7 +2,6 @@
 
 use crate::certificates::Confirmation;
 use crate::table::{Format, Table, WIDTH, pretty, short};
-use crate::table::{Format, Table, pretty, short};
 use eigenring_certify::parameter::{ParameterCertificate, Stretch};
 use eigenring_certify::range::{RangeCertificate, Segment};
 use eigenring_certify::{Certificate, Check, Interval, Requirement, Statement, Status};

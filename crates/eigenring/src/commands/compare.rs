@@ -56,7 +56,7 @@ impl Arguments {
                 "--schemes SPEC,SPEC,.., see 'eigenring --help'",
             ));
         }
-        let rows = compare(&self.schemes.all(), self.valences.closed()?, &tuner())?;
+        let rows = compare(&self.schemes.all()?, self.valences.closed()?, &tuner())?;
         let printed = match format {
             Format::Text => text(&rows, wide),
             _ => table(rows)
@@ -64,8 +64,6 @@ impl Arguments {
                 .render(format),
         };
         self.output.emit(&printed)?;
-        let rows = compare(&self.schemes.all()?, self.valences.closed()?, &tuner())?;
-        self.output.emit(&table(rows).render(format))?;
         Ok(ExitCode::SUCCESS)
     }
 }

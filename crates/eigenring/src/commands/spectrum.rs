@@ -6,14 +6,13 @@ use crate::files;
 use crate::output::Output;
 use crate::progress::{Terminal, note};
 use crate::threads::Threads;
-use crate::valences::OptionalValence;
+use crate::valences::{self, OptionalValence};
 use clap::{ArgGroup, Args, ValueEnum};
 use eigenring_atlas::Accepted;
 use eigenring_atlas::given::{Given, Matrix, Rotation};
 use eigenring_atlas::numbers::{self, Called};
 use eigenring_atlas::schemes::SchemeName;
 use eigenring_atlas::spectrum::Analysis;
-use eigenring_atlas::spectrum::{Analysis, parse_matrix};
 use eigenring_atlas::sweep::{self, Sweep, spectra};
 use eigenring_atlas::table::{Format, pretty};
 use serde_json::Value;
@@ -29,8 +28,7 @@ use std::process::ExitCode;
 #[derive(Args, Debug)]
 #[command(group = ArgGroup::new("source").required(true))]
 #[command(
-    after_help = "Examples:\n  eigenring spectrum --scheme catmull-clark -N 5\n  eigenring spectrum --scheme tension:order=6,u0=2 -N 7 --level 0 --format json\n  eigenring spectrum --scheme catmull-clark --fan 3           a boundary vertex with three faces\n  eigenring spectrum --scheme stam:order=6 --dart -N 5 --cs 1\n  eigenring spectrum --scheme catmull-clark --knots 1,2,1,3 --next 1,1,1,1\n  eigenring spectrum --matrix S.csv                           a matrix of your own"
-    after_help = "Examples:\n  eigenring spectrum --scheme catmull-clark -N 5\n  eigenring spectrum --scheme tension:order=6,u0=2 -N 7 --level 0 --format json\n  eigenring spectrum --scheme catmull-clark --fan 3           a boundary vertex with three faces\n  eigenring spectrum --scheme stam:order=6 --dart -N 5 --cs 1\n  eigenring spectrum --scheme catmull-clark --knots 1,2,1,3 --next 1,1,1,1\n  eigenring spectrum --scheme file:my.toml --sweep a=1..2:20 -N 5\n  eigenring spectrum --matrix S.csv -N 5"
+    after_help = "Examples:\n  eigenring spectrum --scheme catmull-clark -N 5\n  eigenring spectrum --scheme tension:order=6,u0=2 -N 7 --level 0 --format json\n  eigenring spectrum --scheme catmull-clark --fan 3           a boundary vertex with three faces\n  eigenring spectrum --scheme stam:order=6 --dart -N 5 --cs 1\n  eigenring spectrum --scheme catmull-clark --knots 1,2,1,3 --next 1,1,1,1\n  eigenring spectrum --scheme file:my.toml --sweep a=1..2:20 -N 5\n  eigenring spectrum --matrix S.csv                           a matrix of your own"
 )]
 pub struct Arguments {
     /// The scheme: see 'eigenring --help'
@@ -92,8 +90,8 @@ impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         let format = self.output.format()?;
         self.threads.start()?;
-        let answer = match (&self.scheme, &self.matrix) {
-        let scheme = self.scheme.map(|scheme| self.settings.apply(scheme)).transpose()?;
+        let scheme = self.scheme.clone();
+        let scheme = scheme.map(|scheme| self.settings.apply(scheme)).transpose()?;
         if let (Some(sweep), Some(scheme)) = (&self.sweep, &scheme) {
             self.corner.refuse("with --sweep")?;
             let valence = self.valence.valence.ok_or_else(valences::missing)?;
@@ -105,7 +103,7 @@ impl Arguments {
             self.output.emit(&text)?;
             return Ok(ExitCode::SUCCESS);
         }
-        let analysis = match (&scheme, &self.matrix) {
+        let answer = match (&scheme, &self.matrix) {
             (Some(scheme), _) => {
                 let (shape, steps) = self.corner.shape(self.valence.valence)?;
                 let corner = shape.corner(scheme.centre()?, steps)?;
