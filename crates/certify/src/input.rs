@@ -232,13 +232,11 @@ impl Input {
                     scheme: file.scheme(valence)?,
                     exact: Some(file.exact(valence)?),
                     identities: None,
-                    floating: false,
                     corner: None,
                     beyond: Beyond::Unknown,
                     // of formulas whose values are no exact numbers only enclosures are known, and equalities
                     // hold as far as these tell
                     floating: !file.is_exact(valence)?,
-                    tail: None,
                     affine_levels: false,
                     balance: file.balance(valence)?,
                 })
@@ -335,7 +333,8 @@ fn ranged_subject(
         exact: if affine { None } else { Some(free.exact(valence)?) },
         identities: None,
         floating: false,
-        tail: None,
+        corner: None,
+        beyond: Beyond::Unknown,
         affine_levels: false,
         balance: Balance::default(),
     })
