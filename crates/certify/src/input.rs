@@ -382,7 +382,7 @@ fn beyond_leading(spec: &Spec, corner: &Corner) -> Result<(Beyond, bool), Error>
 
 /// Whether the weights of every point that a pass makes are known to sum to 1: then those of the whole level
 /// do.
-fn passes_are_affine(level: &Level<Exact>) -> bool {
+pub(crate) fn passes_are_affine(level: &Level<Exact>) -> bool {
     let one = |sum: Exact| sum.same(&Exact::one());
     level.passes().iter().all(|pass| {
         let sum = |taps: &Taps<Exact>| taps.iter().fold(Exact::zero(), |sum, (_, weight)| sum + weight.clone());

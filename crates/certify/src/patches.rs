@@ -243,7 +243,7 @@ fn are_refined(level: &Level<Exact>, sides: &[[Side; 2]], degree: usize, inner: 
             let mut found: BTreeMap<Site, BigRational> = BTreeMap::new();
             for (site, weight) in row {
                 match weight.as_rational() {
-                    Some(weight) if *weight == zero => {}
+                    Some(weight) if weight == zero => {}
                     Some(weight) => drop(found.insert(site, weight.clone())),
                     None => return Ok(false),
                 }

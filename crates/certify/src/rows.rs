@@ -7,6 +7,7 @@
 //! ones with rules that enclose all of theirs, the limit level last.
 
 use crate::exact::{Field, row_sum_defect};
+use crate::input::passes_are_affine;
 use crate::{Check, Error, Interval, Statement, Subject, Witness};
 use eigenring_scheme::{Error as SchemeError, Exact, Level, Net, Scalar, Site, refine};
 
@@ -96,6 +97,12 @@ fn row_sums_of(
             };
             return Ok(Check::proven(NAME).enclosing(Interval::point(0.0)).remark(remark));
         }
+    }
+    // numbers of another cyclotomic field than that of the sectors, such as the root of 3 at four
+    if exact.is_some_and(passes_are_affine) {
+        return Ok(Check::proven(NAME)
+            .enclosing(Interval::point(0.0))
+            .remark("in exact arithmetic, pass by pass"));
     }
     // rounded weights, or exact ones that do not fit: the defect is enclosed
     let one = Interval::point(1.0);

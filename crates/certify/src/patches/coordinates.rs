@@ -21,7 +21,7 @@ pub fn coordinates(level: &Level<Exact>, corner: &Corner, numbering: Numbering) 
         for (&source, weight) in row {
             let (weight, source) = (weight.as_rational()?, &points[numbering.index(source)?]);
             for (sum, coordinate) in sums.iter_mut().zip(source) {
-                *sum += weight * coordinate;
+                *sum += &weight * coordinate;
             }
         }
         if (0..2).any(|axis| &sums[axis] * &two != point[axis]) {
