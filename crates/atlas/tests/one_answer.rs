@@ -129,6 +129,7 @@ fn a_subdominant_eigenvalue_of_another_block_is_said_to_be() {
         text: STRAY.to_owned(),
         name: "stray".to_owned(),
         reading: Reading::default(),
+        parameters: Default::default(),
     };
     let certificate = certify(input, 3).unwrap();
     let c1 = certificate

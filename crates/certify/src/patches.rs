@@ -244,7 +244,7 @@ fn are_refined(level: &Level<Exact>, sides: &[[Side; 2]], degree: usize, inner: 
             for (site, weight) in row {
                 match weight.as_rational() {
                     Some(weight) if weight == zero => {}
-                    Some(weight) => drop(found.insert(site, weight.clone())),
+                    Some(weight) => drop(found.insert(site, weight)),
                     None => return Ok(false),
                 }
             }
