@@ -1,10 +1,11 @@
 //! Proofs for every value of a parameter of a scheme file.
 //!
 //! The range is cut into [`Tile`]s. On a tile the formulas are evaluated in intervals
-//! ([`Input::TomlRange`]), and the checks of single schemes run on these enclosures: what they prove holds at
-//! each value in the tile, what they refute fails at each. That rows sum to 1, which no enclosure shows, is an
-//! identity of the formulas ([`UserScheme::is_affine_in`](eigenring_scheme::user::UserScheme::is_affine_in)).
-//! Enclosures widen with the tile, so tiles are halved until what is required is decided.
+//! ([`Input::TomlRange`]), and the checks of single schemes run on these enclosures: what they prove holds
+//! at each value in the tile, what they refute fails at each. That rows sum to 1, which no enclosure shows,
+//! is an identity of the formulas
+//! ([`UserScheme::is_affine_in`](eigenring_scheme::user::UserScheme::is_affine_in)). Enclosures widen with
+//! the tile, so tiles are halved until what is required is decided.
 //!
 //! Equalities of eigenvalues (`mu = lambda^2`) are open on a range; at a single value they may be proven.
 

@@ -1,6 +1,6 @@
-//! **Claim**: a stranger starts from a written file, sets its parameters in three ways that mean the same, and
-//! stores proofs that hold their values; what is wrong in a formula is named with its place. **Oracle**: the
-//! built-in schemes, and the files' own text.
+//! **Claim**: a stranger starts from a written file, sets its parameters in three ways that mean the same,
+//! and stores proofs that hold their values; what is wrong in a formula is named with its place.
+//! **Oracle**: the built-in schemes, and the files' own text.
 
 #![allow(missing_docs)]
 
