@@ -1,7 +1,7 @@
 //! Certificates: interval proofs about the spectrum and the characteristic map of a subdivision scheme.
 //!
 //! [`certify`] takes an exact scheme ([`Input`]) at a valence and says of each of a list of statements
-//! ([`Statement`]) whether it is proven, refuted, open, or only computed. [`recheck`] proves a stored
+//! ([`Statement`]) whether it is proven, refuted, open, or only computed. [`recheck()`] proves a stored
 //! [`Certificate`] again; [`range`] does both for a continuous range of lambda, [`parameter`] for one of a
 //! parameter of a scheme file.
 //!

@@ -1,8 +1,9 @@
 //! Enclosures of the whole spectrum of a scheme, and of the vectors that belong to it.
 //!
 //! The matrix whose eigenvalues decide is the local matrix on all rings that determine the patches of the
-//! regular [`Annulus`], not the smallest closed one: outer rings have eigenvalues of their own, and one that
-//! equals lambda makes it defective. It is taken apart before anything is enclosed:
+//! regular [`Annulus`](eigenring_spectral::Annulus), not the smallest closed one: outer rings have
+//! eigenvalues of their own, and one that equals lambda makes it defective. It is taken apart before anything
+//! is enclosed:
 //!
 //! 1. into Fourier [`Block`]s, real where the rules have mirror symmetry; block N-k is the conjugate of
 //! block

@@ -5,7 +5,7 @@
 //!
 //! * both are simple and proven to **differ**; or
 //! * they are 1/2 twice, with the **coordinates** of the plane as eigenvectors, exactly
-//!   ([`coordinates`](crate::patches::coordinates)), and what is left without these has smaller eigenvalues
+//!   ([`coordinates`](crate::patches::coordinates())), and what is left without these has smaller eigenvalues
 //!   only: the double value is semisimple then.
 //!
 //! The rest is as for a double eigenvalue of Fourier index 1 (D. Zorin 2000, *Smoothness of stationary
