@@ -71,8 +71,7 @@ pub fn by_block(spectrum: &Spectrum, valence: usize) -> Vec<(Complex<f64>, usize
     repeated.collect()
 }
 
-/// Compares many numbers with what they should be, and panics at the end with the worst of those that
-/// differ.
+/// Compares many numbers with what they should be, and panics at the end with the worst of those that differ.
 #[derive(Debug)]
 pub struct Comparison {
     what: &'static str,

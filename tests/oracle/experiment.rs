@@ -11,8 +11,8 @@ use super::spline::{At, control, evaluate, patches, winding};
 pub struct Seen {
     /// The largest angle between a normal and their mean, in radians, after each of [`LEVELS`] refinements.
     pub spread: Vec<f64>,
-    /// The winding number of the outer boundary, projected along the mean normal, round the limit point
-    /// after the last.
+    /// The winding number of the outer boundary, projected along the mean normal, round the limit point after
+    /// the last.
     pub winding: Option<i64>,
 }
 

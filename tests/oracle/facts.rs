@@ -58,8 +58,8 @@ pub struct Facts {
 
 /// Rows that miss 1 by less may be read as rounded: a dozen weights, each rounded to 12 decimals.
 pub const ROUNDED: f64 = 1e-11;
-/// Eigenvalues that are farther apart, relatively, are different: a double defective one is only found
-/// within some 1e-8.
+/// Eigenvalues that are farther apart, relatively, are different: a double defective one is only found within
+/// some 1e-8.
 const APART: f64 = 1e-6;
 /// Eigenvalues that are nearer are equal, if they are not chosen to mislead: defective ones of higher order
 /// are not.
@@ -231,8 +231,8 @@ impl Facts {
         self.say("subdominant", holds && size > APART && self.affine(), fails, why);
     }
 
-    /// Two real positive values, apart from each other and from the rest, of rules that differ from sector
-    /// to sector.
+    /// Two real positive values, apart from each other and from the rest, of rules that differ from sector to
+    /// sector.
     fn distinct_pair(&self) -> Option<[f64; 2]> {
         let [first, second, rest @ ..] = self.others.as_slice() else {
             return None;

@@ -72,8 +72,8 @@ impl Local {
         let mut special = None;
         for r in 0..=bound + 4 {
             for point in model.ring(r) {
-                // one sector stands for all where all have the same rules, which they have beyond the
-                // special points
+                // one sector stands for all where all have the same rules, which they have beyond the special
+                // points
                 if point.0 != 0 && (turns || r > bound) {
                     continue;
                 }

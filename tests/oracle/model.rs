@@ -1,9 +1,9 @@
 //! What a scheme file says, read anew: passes on a fan of `n` sectors, and the rows that they compose to.
 //!
 //! The file's format is that of the pages for users; nothing here is taken from the library. A point is
-//! `(sector, x, y)` in half steps. A special stencil that is given for sector 0 alone holds in every
-//! sector, rotated; the centre is one point, and its stencil is what it is: a centre that reads the sectors
-//! unequally breaks the symmetry, whatever the file's form.
+//! `(sector, x, y)` in half steps. A special stencil that is given for sector 0 alone holds in every sector,
+//! rotated; the centre is one point, and its stencil is what it is: a centre that reads the sectors unequally
+//! breaks the symmetry, whatever the file's form.
 
 use super::number::{self, Q};
 use num_traits::{One, Zero};

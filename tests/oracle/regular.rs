@@ -1,5 +1,4 @@
-//! The rule far from the centre: all passes composed on a line, compared with the masks of uniform
-//! B-splines.
+//! The rule far from the centre: all passes composed on a line, compared with the masks of uniform B-splines.
 
 use super::model::{Model, Pass};
 use super::number::{Q, double, ratio};
@@ -15,8 +14,8 @@ pub enum Regular {
     Other(String),
 }
 
-/// The composed rule: for the target points of even and of odd index, the sources by their offset `2 source
-/// - target`.
+/// The composed rule: for the target points of even and of odd index, the sources by their offset `2 source -
+/// target`.
 pub type Composed = [BTreeMap<i64, Q>; 2];
 
 /// Composes the lines of all passes.

@@ -389,8 +389,8 @@ fn schemes_that_were_always_right_stay_proven() {
     }
 }
 
-/// lambda = 1/4 is a double defective eigenvalue, so that the criterion does not apply; but normals
-/// converge, like 1/m, the Jacobian keeps its sign and the ring winds once.
+/// lambda = 1/4 is a double defective eigenvalue, so that the criterion does not apply; but normals converge,
+/// like 1/m, the Jacobian keeps its sign and the ring winds once.
 #[test]
 fn order_three_at_a_triangle_is_not_refuted() {
     let text = "kind = \"stencils\"\ndegree = 2\n[[valence]]\nn = 3\n[[valence.pass]]\nfrom = \"face\"\nto = \"face\"\n\

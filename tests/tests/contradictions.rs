@@ -429,8 +429,8 @@ fn tied(tie: &Tie) -> File {
         _ => half.clone(),
     };
     let (e1, e2, f3) = (q(tie.e1, 32), &beta * &half, &square + &beta);
-    // (d2 + 2 e1 c - lambda) (f3 - lambda) = 2 (1 + c) e2 f2 in block 1, with f2 = alpha/2 + lean and alpha
-    // = d2 + 2 e1 - lambda^2; f3 < lambda as lambda (1 - lambda) >= 15/64 and beta <= 1/32
+    // (d2 + 2 e1 c - lambda) (f3 - lambda) = 2 (1 + c) e2 f2 in block 1, with f2 = alpha/2 + lean and alpha =
+    // d2 + 2 e1 - lambda^2; f3 < lambda as lambda (1 - lambda) >= 15/64 and beta <= 1/32
     let slope = &two * (&one + &cosine) * &e2 / (&f3 - &lambda);
     let constant = &lambda - &two * &e1 * &cosine + &slope * ((&two * &e1 - &square) * &half + &lean);
     let d2 = constant / (&one - &slope * &half);

@@ -255,8 +255,8 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
 
     /// Where four sectors meet, points are products of two blossoms at three knots each, and so are refined
-    /// points at the knots with all intervals halved: insertion of a knot in the middle of every interval,
-    /// in both directions.
+    /// points at the knots with all intervals halved: insertion of a knot in the middle of every interval, in
+    /// both directions.
     #[test]
     fn valence_four_with_intervals_is_knot_insertion(
         d in proptest::array::uniform4(0.05..4.0_f64), a in proptest::array::uniform4(0.05..4.0_f64),

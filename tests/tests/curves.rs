@@ -271,8 +271,8 @@ fn deep_limit(order: usize, u0: f64, points: &[[f64; 2]], mut t: f64, levels: us
     let (mut window, mut u) = (points.to_vec(), u0);
     for _ in 0..levels {
         let fine = Curve::new(order, u, Ends::Open, &window).unwrap().refine().unwrap();
-        // the k points of the interval that t lies in; a new polygon counts its parameters from its own
-        // first point
+        // the k points of the interval that t lies in; a new polygon counts its parameters from its own first
+        // point
         let (start, _) = fine.axis().domain();
         let interval = (2.0 * (t - start)).floor().min(fine.axis().intervals() as f64 - 1.0);
         let first = interval as usize;

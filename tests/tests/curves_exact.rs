@@ -286,9 +286,9 @@ fn least_squares(columns: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
     x
 }
 
-/// A curve's parameter as a function of T, and back: `T = start + pi/4 (t - 2)`, as the domain of 8 points
-/// of order 5 is from 2 to 6. The functions `1, T, T^2, cos 2T, sin 2T`, of which the last are those of v0
-/// = cos(pi/4).
+/// A curve's parameter as a function of T, and back: `T = start + pi/4 (t - 2)`, as the domain of 8 points of
+/// order 5 is from 2 to 6. The functions `1, T, T^2, cos 2T, sin 2T`, of which the last are those of v0 =
+/// cos(pi/4).
 fn fig_1_functions(start: f64) -> [Function; 5] {
     let h = FRAC_PI_4;
     // T = 0

@@ -1,8 +1,8 @@
-//! **Claim**: the embedded spline stencils of the lambda-scheme are the tabulated ones, are strictly
-//! feasible for every lambda of [0.15, 0.9], and meet the optimum they were fitted to. **Oracles**:
-//! `results/lambda/tables.json` and the tables beside it, written by the same command; the constraints of
-//! Ma, Wang and Ma (2023, section 3.2) evaluated on the stencils and their spectra, never on the curves
-//! that bounded the fit; the paper's Table 1.
+//! **Claim**: the embedded spline stencils of the lambda-scheme are the tabulated ones, are strictly feasible
+//! for every lambda of [0.15, 0.9], and meet the optimum they were fitted to. **Oracles**:
+//! `results/lambda/tables.json` and the tables beside it, written by the same command; the constraints of Ma,
+//! Wang and Ma (2023, section 3.2) evaluated on the stencils and their spectra, never on the curves that
+//! bounded the fit; the paper's Table 1.
 //!
 //! Until the table has been written there is nothing to check, and the tests say so; a table that is there
 //! must be whole.
@@ -141,8 +141,8 @@ fn is_the_published_table() {
 fn infeasible(entry: &Entry) -> Vec<(f64, String)> {
     /// Weights may vanish, and then rounding of the splines leaves this much.
     const ROUNDING: f64 = 1e-14;
-    /// Eigenvalues must stay below mu by this factor: the fit keeps 1e-6 at its own lambdas and may lose
-    /// some of it between.
+    /// Eigenvalues must stay below mu by this factor: the fit keeps 1e-6 at its own lambdas and may lose some
+    /// of it between.
     const MARGIN: f64 = 1e-7;
     let relaxation = Relaxation::new(entry.valence).unwrap();
     let (a, e) = (entry.knots.a, entry.knots.e);

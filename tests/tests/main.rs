@@ -1,5 +1,5 @@
-//! All tests of this package as one binary: each file is a claim with its oracle, and linking them one by
-//! one takes longer than running them.
+//! All tests of this package as one binary: each file is a claim with its oracle, and linking them one by one
+//! takes longer than running them.
 
 mod cases;
 mod contradictions;

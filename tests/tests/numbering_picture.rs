@@ -1,6 +1,6 @@
-//! **Claim**: the picture and the page `docs/numbering.md` show the numbering that the code uses.
-//! **Oracle**: each other. Every labelled point of the picture carries its site; the page's table of
-//! indices is read as it stands.
+//! **Claim**: the picture and the page `docs/numbering.md` show the numbering that the code uses. **Oracle**:
+//! each other. Every labelled point of the picture carries its site; the page's table of indices is read as
+//! it stands.
 
 use eigenring_scheme::{Fan, Lattice, Numbering, Site};
 

@@ -1,6 +1,6 @@
-//! The objective at the thirteen stencils of `data/lambda_scheme_cases.json`, computed once by an
-//! independent numpy implementation that follows Ma, Wang and Ma (2023), Eqs. 11 to 20, without symmetry or
-//! affine structure.
+//! The objective at the thirteen stencils of `data/lambda_scheme_cases.json`, computed once by an independent
+//! numpy implementation that follows Ma, Wang and Ma (2023), Eqs. 11 to 20, without symmetry or affine
+//! structure.
 
 use approx::assert_relative_eq;
 use eigenring_scheme::lambda::Plane;

@@ -1,7 +1,7 @@
-//! **Claim**: the independent model of scheme files says what is true of schemes that are known, and finds
-//! a false status. **Oracle**: closed forms (Peters and Reif 2008, 6.2; Doo and Sabin 1978), and the
-//! numbers of an older program in another language, dense eigenvectors and 9 x 9 samples of the Jacobian on
-//! each patch, in `JACOBIANS`.
+//! **Claim**: the independent model of scheme files says what is true of schemes that are known, and finds a
+//! false status. **Oracle**: closed forms (Peters and Reif 2008, 6.2; Doo and Sabin 1978), and the numbers of
+//! an older program in another language, dense eigenvectors and 9 x 9 samples of the Jacobian on each patch,
+//! in `JACOBIANS`.
 
 use eigenring_certify::{Check, Status, Witness};
 use eigenring_tests::Comparison;

@@ -3,8 +3,8 @@
 //! traces of its powers, which are sums of powers of all eigenvalues, repeated and defective ones included;
 //! its discrete Fourier transform; closed forms.
 //!
-//! The table [`expectation`] names every family. A family that is registered without an entry fails the
-//! test: what is new must say what it claims.
+//! The table [`expectation`] names every family. A family that is registered without an entry fails the test:
+//! what is new must say what it claims.
 
 use eigenring_scheme::lambda::{Bounds, Domain, LambdaTable, Relaxation};
 use eigenring_scheme::{Error, FourierNet, Lattice, Level, Numbering, Scheme, Site, Spec, Symmetry, registry};

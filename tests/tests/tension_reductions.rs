@@ -1,6 +1,6 @@
-//! **Claim**: the tension scheme reduces to what it generalises, and its matrices are the same by every
-//! path. **Oracles**: Catmull-Clark's and Doo and Sabin's own rules; the masks of uniform B-splines (Lane
-//! and Riesenfeld 1980: binomial coefficients); the local matrix against its Fourier blocks and against
+//! **Claim**: the tension scheme reduces to what it generalises, and its matrices are the same by every path.
+//! **Oracles**: Catmull-Clark's and Doo and Sabin's own rules; the masks of uniform B-splines (Lane and
+//! Riesenfeld 1980: binomial coefficients); the local matrix against its Fourier blocks and against
 //! refinement of points.
 
 use eigenring_scheme::families::{catmull_clark, doo_sabin, tension};

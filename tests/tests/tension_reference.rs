@@ -1,7 +1,7 @@
 //! **Claim**: the generalised tension scheme (Fang, Ma and Wang) of even and odd order has the spectra that
 //! its rules imply. **Oracles**: `data/tension_scheme_cases.json`, even orders by an independent
-//! implementation; odd moduli of another one, for the rule that a smoothed point is the mean of the
-//! centroids of its four faces; order 3 in closed form.
+//! implementation; odd moduli of another one, for the rule that a smoothed point is the mean of the centroids
+//! of its four faces; order 3 in closed form.
 
 use eigenring_scheme::families::tension;
 use eigenring_spectral::LocalSystem;

@@ -109,8 +109,7 @@ pub fn beside(
 /// weights, else constants.
 ///
 /// # Errors
-/// [`Error::Usage`] for a scheme of another family, or with an s of its own; a valence that is not
-/// tabulated.
+/// [`Error::Usage`] for a scheme of another family, or with an s of its own; a valence that is not tabulated.
 pub fn curve(scheme: Option<&SchemeName>, valence: usize) -> Result<Curve, Error> {
     match scheme {
         None
@@ -243,8 +242,8 @@ fn statements() -> impl Iterator<Item = Statement> {
         .filter(|&statement| statement != Statement::Levels)
 }
 
-/// One line a certificate: the verdicts, the status of each statement, eigenvalue and ratio. Certificates
-/// are in the order of what they are of.
+/// One line a certificate: the verdicts, the status of each statement, eigenvalue and ratio. Certificates are
+/// in the order of what they are of.
 pub fn summary(singles: &[Single], certificates: &[Certificate]) -> Table {
     let mut columns = vec!["scheme", "valence", "lambda", "mu_ratio", "jacobian_margin"];
     // the words of the requirements are names of checks too

@@ -135,8 +135,8 @@ pub fn compare(schemes: &[SchemeName], valences: &[usize], tuner: &Tuner<'_>) ->
         .iter()
         .flat_map(|&valence| schemes.iter().map(move |scheme| (valence, scheme)))
         .collect();
-    // what must be tuned is tuned one after the other: all threads work on each, and it is remembered for
-    // the next
+    // what must be tuned is tuned one after the other: all threads work on each, and it is remembered for the
+    // next
     let found: Vec<Scheme<f64>> = pairs
         .into_iter()
         .map(|(valence, scheme)| scheme.scheme(valence, tuner))

@@ -1,12 +1,12 @@
 //! Comparing result files number by number.
 //!
 //! Two numbers agree if `|a - b| <= atol + rtol |a|`; words must be equal. What a computation cost
-//! (evaluations) and what is rounding by nature (residuals of optimality conditions, slacks of active
-//! bounds) may differ between platforms and is not compared.
+//! (evaluations) and what is rounding by nature (residuals of optimality conditions, slacks of active bounds)
+//! may differ between platforms and is not compared.
 //!
-//! On one platform the same program gives the same bytes, so that files which agree to the tolerances but
-//! not to the byte are stale, or from elsewhere. That is no failure; the report has a line that says how
-//! many entries differ and by how much at most.
+//! On one platform the same program gives the same bytes, so that files which agree to the tolerances but not
+//! to the byte are stale, or from elsewhere. That is no failure; the report has a line that says how many
+//! entries differ and by how much at most.
 
 use crate::error::Error;
 use crate::files;
@@ -220,9 +220,9 @@ pub struct Report {
 /// How many of the worst entries are listed for each file.
 const SHOWN: usize = 10;
 
-/// Compares one file that was made anew with the one that is stored: CSV and JSON number by number. Of
-/// other files there must be one in both folders, and not an empty one. Whatever else differs, to the byte,
-/// is told in a line of its own and does not count.
+/// Compares one file that was made anew with the one that is stored: CSV and JSON number by number. Of other
+/// files there must be one in both folders, and not an empty one. Whatever else differs, to the byte, is told
+/// in a line of its own and does not count.
 ///
 /// # Errors
 /// [`Error::Read`] and [`Error::InFile`] for files that are missing or empty.

@@ -13,8 +13,8 @@ use eigenring_scheme::{Complex, Site};
 use eigenring_spectral::{Eigenvalue, Matrix, Mode};
 use serde_json::{Value, json};
 
-/// What is left of `S R - R D` and `L^T R - I` is below this times the largest entries: beyond the
-/// conditions at which vectors are refused, and far below what a missing or doubled vector leaves.
+/// What is left of `S R - R D` and `L^T R - I` is below this times the largest entries: beyond the conditions
+/// at which vectors are refused, and far below what a missing or doubled vector leaves.
 const RESIDUAL: f64 = 1e-6;
 
 /// A right eigenvector and the left one that belongs to it.

@@ -3,8 +3,8 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// Everything that can go wrong. A message is one sentence, which ends with what is accepted wherever a
-/// value is refused; [`Error::accepted`] gives that part by itself.
+/// Everything that can go wrong. A message is one sentence, which ends with what is accepted wherever a value
+/// is refused; [`Error::accepted`] gives that part by itself.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// From the rules: a valence, a parameter or a name.

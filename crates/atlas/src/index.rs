@@ -1,9 +1,9 @@
 //! `index.toml`: which command makes which result files, and which tests hold them to account.
 //!
 //! An entry is a table or figure: what it shows, the command that makes it, its files (below the folder of
-//! the index) and the tests that compare them with something else. Commands are run as a user runs them,
-//! with the output folder added; so what an index claims is what anybody gets. A folder without an index,
-//! as `eigenring tables --out FOLDER` leaves it, is described by the commands that its `tables.json` files
+//! the index) and the tests that compare them with something else. Commands are run as a user runs them, with
+//! the output folder added; so what an index claims is what anybody gets. A folder without an index, as
+//! `eigenring tables --out FOLDER` leaves it, is described by the commands that its `tables.json` files
 //! record.
 //!
 //! Which command lines make sense is for whoever runs them to say: reading an index asks for it, entry by

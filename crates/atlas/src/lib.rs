@@ -2,9 +2,9 @@
 //! them, as a library.
 //!
 //! The crates below know one thing each: what a scheme is, what follows from it, how one is found, what can
-//! be proven of it, how a picture is drawn. This one puts them together. Its functions take plain values,
-//! and return plain data, a [`table::Table`] or a [`figures::Drawing`]; where a result goes is for the
-//! caller to say.
+//! be proven of it, how a picture is drawn. This one puts them together. Its functions take plain values, and
+//! return plain data, a [`table::Table`] or a [`figures::Drawing`]; where a result goes is for the caller to
+//! say.
 //!
 //! ```
 //! use eigenring_atlas::schemes::{SchemeName, Tuner};

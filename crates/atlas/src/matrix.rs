@@ -44,8 +44,8 @@ pub(crate) fn npy(shape: &[usize], entries: impl Iterator<Item = f64>) -> Vec<u8
 }
 
 impl LocalMatrix {
-    /// The matrix of a level of a scheme, by default the limit level, on so many rings; by default as many
-    /// as [`Analysis::of_scheme`](crate::spectrum::Analysis::of_scheme) takes.
+    /// The matrix of a level of a scheme, by default the limit level, on so many rings; by default as many as
+    /// [`Analysis::of_scheme`](crate::spectrum::Analysis::of_scheme) takes.
     ///
     /// # Errors
     /// [`Error::Range`] for a number of rings as there, and for more than 10^8 entries.

@@ -1,7 +1,7 @@
 //! How long work tells of its progress, and the one loop that does it in parallel.
 //!
-//! What is told is for whoever waits, and changes no result. A command draws bars and prints notes; a
-//! program that does not care passes [`Silent`].
+//! What is told is for whoever waits, and changes no result. A command draws bars and prints notes; a program
+//! that does not care passes [`Silent`].
 
 use rayon::prelude::*;
 use std::fmt;
@@ -38,8 +38,8 @@ impl Task for Silent {
     fn advanced(&self) {}
 }
 
-/// Maps items in parallel, on the threads of the current pool of rayon. Results are in the order of the
-/// items and do not depend on the number of threads.
+/// Maps items in parallel, on the threads of the current pool of rayon. Results are in the order of the items
+/// and do not depend on the number of threads.
 ///
 /// # Errors
 /// The first one in the order of the items, whatever the number of threads. After an error no later item is

@@ -1,7 +1,7 @@
 //! Pictures of surfaces, pixel by pixel, several schemes side by side.
 //!
-//! Each face is sampled on a grid about as fine as the pixels, with exact normals and curvatures; colours
-//! are found at every pixel of a picture three times as fine and averaged.
+//! Each face is sampled on a grid about as fine as the pixels, with exact normals and curvatures; colours are
+//! found at every pixel of a picture three times as fine and averaged.
 
 use crate::error::Error;
 use eigenring_figure::{Colour, ColourScale, Pixels};

@@ -1,7 +1,7 @@
 //! The files of `results/lambda`: what is tabulated, as text.
 //!
-//! Everything here is a pure function of the studies, so that a check can compare a regenerated file with
-//! the one on disk.
+//! Everything here is a pure function of the studies, so that a check can compare a regenerated file with the
+//! one on disk.
 
 use crate::run::Parameters;
 use crate::table::{Cell, Format, Table, short};

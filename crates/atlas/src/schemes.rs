@@ -336,8 +336,8 @@ impl SchemeName {
         Ok(definition.around(corner)?)
     }
 
-    /// The rules around a corner in numbers from which multiplicities can be told; `None` for a member of
-    /// the lambda-scheme, whose weights are results of rounding.
+    /// The rules around a corner in numbers from which multiplicities can be told; `None` for a member of the
+    /// lambda-scheme, whose weights are results of rounding.
     ///
     /// # Errors
     /// As [`SchemeName::around`].

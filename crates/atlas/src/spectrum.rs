@@ -47,8 +47,8 @@ pub struct Analysis {
     /// The level of refinement, counted from 0, and how many come before the limit level; unknown for a
     /// matrix.
     pub level: Option<(usize, usize)>,
-    /// The smallest closed number of rings, and the largest modulus of the eigenvalues outside of it;
-    /// unknown for a matrix.
+    /// The smallest closed number of rings, and the largest modulus of the eigenvalues outside of it; unknown
+    /// for a matrix.
     pub closed: Option<(usize, f64)>,
     /// Its eigenvalues.
     pub spectrum: Spectrum,
@@ -146,8 +146,8 @@ impl Analysis {
             .then(|| format!("the rows of the local matrix do not sum to 1: the largest defect is {defect:e}"))
     }
 
-    /// What the list of eigenvalues does not say by itself: rings beyond the smallest closed set, a
-    /// defective subdominant eigenvalue.
+    /// What the list of eigenvalues does not say by itself: rings beyond the smallest closed set, a defective
+    /// subdominant eigenvalue.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
         let rings = self.system.numbering().rings;
@@ -203,8 +203,8 @@ impl Analysis {
         notes
     }
 
-    /// Scheme, valence, rings and points, subdominant and subsubdominant eigenvalue (the modulus of a
-    /// complex one), and their ratio s.
+    /// Scheme, valence, rings and points, subdominant and subsubdominant eigenvalue (the modulus of a complex
+    /// one), and their ratio s.
     pub fn head(&self) -> Record {
         let (numbering, spectrum) = (self.system.numbering(), &self.spectrum);
         let lattice = match numbering.lattice {

@@ -109,8 +109,7 @@ alpha = "1/5"
 beta = "1/30"
 "#;
 
-/// What has no meaning without a characteristic map is left out by all that would print it, and they say
-/// why.
+/// What has no meaning without a characteristic map is left out by all that would print it, and they say why.
 #[test]
 fn a_subdominant_eigenvalue_of_another_block_is_said_to_be() {
     let file = UserScheme::parse(STRAY, "stray", Reading::default()).unwrap();

@@ -1,7 +1,7 @@
 //! Certificates: making, checking, storing and checking again.
 //!
-//! A [`Certificate`] says of one exact scheme at one valence what was proven, refuted or left open, and
-//! keeps the evidence: the approximate eigenvectors and the subdivisions with which the proofs go through.
+//! A [`Certificate`] says of one exact scheme at one valence what was proven, refuted or left open, and keeps
+//! the evidence: the approximate eigenvectors and the subdivisions with which the proofs go through.
 //! [`certify`] makes one in two steps that share nothing but the problem: a search ([`find`](crate::find),
 //! [`map::find`](crate::map::find)), in doubles, and the checks, in intervals and exact arithmetic.
 //! [`recheck`](crate::recheck()) runs the checks alone, on a stored certificate, and compares what they say

@@ -44,8 +44,8 @@ pub(crate) trait Document: Clone + Serialize + for<'de> Deserialize<'de> {
         Ok(text)
     }
 
-    /// The document as JSON on one line: evidence is for the checks to read, and takes a third of the room
-    /// of indented JSON.
+    /// The document as JSON on one line: evidence is for the checks to read, and takes a third of the room of
+    /// indented JSON.
     fn on_one_line(&self) -> Result<String, Error> {
         Ok(serde_json::to_string(self).map_err(syntax)? + "\n")
     }

@@ -25,8 +25,8 @@ const PAIRS: usize = 4;
 /// Components of up to this many unknowns are taken apart completely where possible.
 const SMALL: usize = 8;
 
-/// Pairs whose enclosure is wider than this, relative to the eigenvalue, are not divided out: what they
-/// leave would be wider still. Empirical.
+/// Pairs whose enclosure is wider than this, relative to the eigenvalue, are not divided out: what they leave
+/// would be wider still. Empirical.
 const SHARP: f64 = 1e-10;
 
 fn peel(block: &Block, component: usize) -> Peel {
@@ -97,8 +97,8 @@ fn rest(exact: &Matrix<Interval>) -> Option<Rest> {
     None
 }
 
-/// The Cholesky factor L (upper, `P = L^T L`) of the solution of `P - M^T P M = I`, `M = A / radius`: the
-/// sum of `(M^T)^k M^k`, by doubling.
+/// The Cholesky factor L (upper, `P = L^T L`) of the solution of `P - M^T P M = I`, `M = A / radius`: the sum
+/// of `(M^T)^k M^k`, by doubling.
 fn stein_factor(matrix: &Matrix<f64>, radius: f64) -> Option<Matrix<f64>> {
     let size = matrix.rows();
     let times = |a: &Matrix<f64>, b: &Matrix<f64>| {

@@ -234,8 +234,8 @@ impl Input {
                     identities: None,
                     corner: None,
                     beyond: Beyond::Unknown,
-                    // of formulas whose values are no exact numbers only enclosures are known, and
-                    // equalities hold as far as these tell
+                    // of formulas whose values are no exact numbers only enclosures are known, and equalities
+                    // hold as far as these tell
                     floating: !file.is_exact(valence)?,
                     affine_levels: false,
                     balance: file.balance(valence)?,
@@ -362,8 +362,8 @@ pub struct Subject {
 }
 
 /// What is known of a family's levels beyond the leading ones around a corner, and whether the rows of all
-/// levels of the tension scheme sum to 1. The weights of a pass, times `(1+u)^2`, are polynomials of degree
-/// 2 in u; a sum of such that is `(1+u)^2` at three values of u is so at all.
+/// levels of the tension scheme sum to 1. The weights of a pass, times `(1+u)^2`, are polynomials of degree 2
+/// in u; a sum of such that is `(1+u)^2` at three values of u is so at all.
 fn beyond_leading(spec: &Spec, corner: &Corner) -> Result<(Beyond, bool), Error> {
     let Some((order, u0)) = spec.order_and_tension() else {
         // of other families only knot intervals have levels that differ
@@ -419,10 +419,10 @@ fn enclosed(exact: &Scheme<Exact>) -> Scheme<Interval> {
 /// p_0(x) + beta [ 2 f2 + phi h f3/f2 - (g3 + 2h - x + phi (f3 - x)) ]
 /// ```
 ///
-/// (expand; the terms in `beta^2` cancel). At `x = mu`, `p_0(mu) = p_2(mu) - h (1 - c2) mu = -h (1 - c2)
-/// mu`, so that the value is zero exactly for the beta of [`Plane`]. Row sums are `f1 + 2 f2 + f3 = 1`,
-/// hence `d1 + d2 + 2 e1 + 2 e2 = g1 + g3 + 2 g2 (f1 + 2 f2 + f3) = 1`. At valence 4 all this holds for `f3
-/// = mu`, where g3 and h are given by continuation.
+/// (expand; the terms in `beta^2` cancel). At `x = mu`, `p_0(mu) = p_2(mu) - h (1 - c2) mu = -h (1 - c2) mu`,
+/// so that the value is zero exactly for the beta of [`Plane`]. Row sums are `f1 + 2 f2 + f3 = 1`, hence
+/// `d1 + d2 + 2 e1 + 2 e2 = g1 + g3 + 2 g2 (f1 + 2 f2 + f3) = 1`. At valence 4 all this holds for `f3 = mu`,
+/// where g3 and h are given by continuation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Identities {
     /// An eigenvalue of block 1.
@@ -525,8 +525,8 @@ mod tests {
         assert_eq!(evaluated, 9 * 6 * 125);
     }
 
-    /// The closed forms above are those of [`Plane`], and the stencils have the demanded eigenvalues in
-    /// block 0 too.
+    /// The closed forms above are those of [`Plane`], and the stencils have the demanded eigenvalues in block
+    /// 0 too.
     #[test]
     fn planes_evaluate_these_closed_forms() {
         for (valence, cosines) in [(3, [q(-1, 2), q(-1, 2)]), (6, [q(1, 2), q(-1, 2)])] {

@@ -8,11 +8,11 @@
 //! denominators are exact. An entry of a matrix that is zero by construction is then an exact zero, which is
 //! what structural arguments need.
 //!
-//! **No NaN, no panic.** Where a result is not defined (a division by an interval that holds zero, a root
-//! of an interval that reaches below zero, a NaN handed in) the result is [`Interval::ENTIRE`]: nothing is
-//! known, and whatever is concluded from it is undecided. Bounds may be infinite. One thing is concluded
-//! all the same: an interval stands for a real number, so that an exact zero times it is zero. Whoever
-//! multiplies what may not be defined by an exact zero has to know that it is defined.
+//! **No NaN, no panic.** Where a result is not defined (a division by an interval that holds zero, a root of
+//! an interval that reaches below zero, a NaN handed in) the result is [`Interval::ENTIRE`]: nothing is
+//! known, and whatever is concluded from it is undecided. Bounds may be infinite. One thing is concluded all
+//! the same: an interval stands for a real number, so that an exact zero times it is zero. Whoever multiplies
+//! what may not be defined by an exact zero has to know that it is defined.
 //!
 //! Intervals are not ordered. The comparisons here say what is certain: `a.certainly_lt(b)` being false says
 //! nothing about `a >= b`.
@@ -88,8 +88,8 @@ impl Interval {
         Interval { lo: -1.0, hi: 1.0 }
     }
 
-    /// An enclosure of a number written as a decimal: a point where a double has that value, adjacent
-    /// doubles otherwise. `None` where the text is not a decimal number.
+    /// An enclosure of a number written as a decimal: a point where a double has that value, adjacent doubles
+    /// otherwise. `None` where the text is not a decimal number.
     pub fn parse(text: &str) -> Option<Self> {
         decimal::parse(text)
     }

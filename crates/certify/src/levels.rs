@@ -1,24 +1,23 @@
 //! Levels that differ: whether C1 carries over from the limit level.
 //!
-//! Let `S_l` be the local matrices of the levels and S that of the limit level. Rows of all sum to 1, so
-//! that all map constants to themselves. Let S have the subdominant pair lambda, or the pair `lambda_1 >
-//! lambda_2` of different eigenvalues, and let lambda be the smaller of the two.
+//! Let `S_l` be the local matrices of the levels and S that of the limit level. Rows of all sum to 1, so that
+//! all map constants to themselves. Let S have the subdominant pair lambda, or the pair `lambda_1 > lambda_2`
+//! of different eigenvalues, and let lambda be the smaller of the two.
 //!
-//! **Theorem.** If `|S_l - S| <= c q^l` with `M q < lambda`, M a bound of all `|S_l|`, then `y_m = S_(m-1)
-//! .. S_0 y_0` is, up to a constant net, `r_1 lambda_1^m (l_1 y_0) + r_2 lambda_2^m (l_2 y_0) +
-//! o(lambda^m)`: r are the eigenvectors of the pair, and `l_i = lim w_i S_(m-1) .. S_0 / lambda_i^m` exist,
-//! w being the left eigenvectors. Where `l_1` and `l_2` are linearly independent the rings of almost all
-//! nets thus tend, after scaling, to affine images of the characteristic map of S, and the surface is C1
-//! with it.
+//! **Theorem.** If `|S_l - S| <= c q^l` with `M q < lambda`, M a bound of all `|S_l|`, then `y_m = S_(m-1) ..
+//! S_0 y_0` is, up to a constant net, `r_1 lambda_1^m (l_1 y_0) + r_2 lambda_2^m (l_2 y_0) + o(lambda^m)`: r
+//! are the eigenvectors of the pair, and `l_i = lim w_i S_(m-1) .. S_0 / lambda_i^m` exist, w being the left
+//! eigenvectors. Where `l_1` and `l_2` are linearly independent the rings of almost all nets thus tend, after
+//! scaling, to affine images of the characteristic map of S, and the surface is C1 with it.
 //!
-//! *Why.* The parts of y along `r_1, r_2` and along the complement Z of both and of the constants are
-//! driven by `(S_l - S) y_l`, of size `q^l lambda_1^l` at most: against `lambda_i^l` that is summable, and
-//! on Z, where S has only smaller eigenvalues, what accumulates is `o(lambda^m)`. The ring of level m is
-//! the image of `y_m` under the basis functions of the levels from m on, which differ from those of S in C1
-//! by the order of `q^m`, since `sum 2^l |S_l - S|` is finite (asymptotic equivalence: Dyn and Levin 1995,
-//! *Analysis of asymptotically equivalent binary subdivision schemes*; around the centre Conti, Donatelli,
-//! Romani and Novara 2019, *Convergence and normal continuity analysis of non-stationary subdivision
-//! schemes near extraordinary vertices and faces*); times `lambda_1^m` that is again `o(lambda^m)`.
+//! *Why.* The parts of y along `r_1, r_2` and along the complement Z of both and of the constants are driven
+//! by `(S_l - S) y_l`, of size `q^l lambda_1^l` at most: against `lambda_i^l` that is summable, and on Z,
+//! where S has only smaller eigenvalues, what accumulates is `o(lambda^m)`. The ring of level m is the image
+//! of `y_m` under the basis functions of the levels from m on, which differ from those of S in C1 by the
+//! order of `q^m`, since `sum 2^l |S_l - S|` is finite (asymptotic equivalence: Dyn and Levin 1995, *Analysis
+//! of asymptotically equivalent binary subdivision schemes*; around the centre Conti, Donatelli, Romani and
+//! Novara 2019, *Convergence and normal continuity analysis of non-stationary subdivision schemes near
+//! extraordinary vertices and faces*); times `lambda_1^m` that is again `o(lambda^m)`.
 //!
 //! For the tension scheme the hypotheses are checked here:
 //!

@@ -6,9 +6,9 @@
 //! parameter of a scheme file.
 //!
 //! **Search and proof are apart.** [`find`] and [`map::find`] look for evidence in doubles: approximate
-//! eigenvectors, subdivisions, places. The checks take scheme and evidence and use nothing but
-//! [`Interval`]s, [`Centred`] forms and [`exact`] numbers. Wrong evidence leaves a statement undecided; it
-//! cannot make it proven or refuted.
+//! eigenvectors, subdivisions, places. The checks take scheme and evidence and use nothing but [`Interval`]s,
+//! [`Centred`] forms and [`exact`] numbers. Wrong evidence leaves a statement undecided; it cannot make it
+//! proven or refuted.
 //!
 //! ```
 //! use eigenring_certify::{Input, Statement, Status, certify, recheck};

@@ -6,8 +6,7 @@
 //!
 //! * [`solve`]: a system, by the residual iteration of Krawczyk (1969) and Rump (1980) about an approximate
 //!   inverse.
-//! * [`eigenpair`]: a simple real eigenvalue with its vector, by the operator of Krawczyk on `A x = lambda
-//! x,
+//! * [`eigenpair`]: a simple real eigenvalue with its vector, by the operator of Krawczyk on `A x = lambda x,
 //!   x_p = 1`.
 //! * [`quotient`]: the matrix that is left when a known eigenvector is divided out.
 //! * [`pair`]: both eigenvalues of a 2 x 2 matrix in closed form.
@@ -25,8 +24,8 @@ pub use stein::radius_below;
 use crate::Interval;
 use eigenring_spectral::Matrix;
 
-/// An eigenvalue as an enclosure of its real and its imaginary part. The imaginary part is exactly zero
-/// where the value is proven to be real.
+/// An eigenvalue as an enclosure of its real and its imaginary part. The imaginary part is exactly zero where
+/// the value is proven to be real.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eigenvalue {
     /// Real part.
@@ -59,11 +58,11 @@ impl Eigenvalue {
 /// Both eigenvalues of a 2 x 2 matrix, with a bound on their kind: from `trace`, `det` and the discriminant
 /// `(a - d)^2 + 4 b c`, which does not cancel where the matrix is nearly triangular.
 ///
-/// They are called real, by an imaginary part that is exactly zero, only if the discriminant of every
-/// member is not negative. Of real ones the first is the root away from the cancellation, on the side of
-/// the middle of the trace: where the sign of the trace is certain it is the larger in modulus. The other
-/// is enclosed as the determinant over it as well, so that it is as sharp, relatively, as the determinant.
-/// Squares below the range of doubles leave enclosures that are right and wide.
+/// They are called real, by an imaginary part that is exactly zero, only if the discriminant of every member
+/// is not negative. Of real ones the first is the root away from the cancellation, on the side of the middle
+/// of the trace: where the sign of the trace is certain it is the larger in modulus. The other is enclosed as
+/// the determinant over it as well, so that it is as sharp, relatively, as the determinant. Squares below the
+/// range of doubles leave enclosures that are right and wide.
 pub fn pair(matrix: &Matrix<Interval>) -> [Eigenvalue; 2] {
     let (a, b, c, d) = (matrix[(0, 0)], matrix[(0, 1)], matrix[(1, 0)], matrix[(1, 1)]);
     let half = Interval::point(0.5);

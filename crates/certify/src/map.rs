@@ -17,16 +17,16 @@
 //! undecided, never wrong.
 //!
 //! **What is taken for granted:** the values are those of a rotation-symmetric net, `P_(i+1) = R P_i` with
-//! `R` the rotation by `2 pi k / N` (an eigenvector of Fourier block k has this form), and, where `mirror`
-//! is set, of one symmetric under reflection in the x-axis, on which the first point of ring 1 lies (spoke
-//! 0, or the diagonal of sector 0 around a face). Enclosures that contradict these are refused. Only sector
-//! 0 is then examined. Nets without rotation symmetry ([`PlaneNet::whole`]) are examined in all sectors.
-//! Their two coordinates may belong to two eigenvalues `lambda_1 > lambda_2`: the map is then extended by
-//! `X(2 t) = X(t) / diag(lambda_1, lambda_2)`, and what is said below holds for it as well (Zorin 2000,
-//! *Smoothness of stationary subdivision on irregular meshes*, Constructive Approximation 16). Scaled by
-//! these powers, rings of almost all nets tend to affine images of the map, since every further eigenvalue
-//! is below lambda_2; the leading term of their normals is `(lambda_1 lambda_2)^m` times the Jacobian, and
-//! the quotient of the punctured plane by the scaling is a torus again.
+//! `R` the rotation by `2 pi k / N` (an eigenvector of Fourier block k has this form), and, where `mirror` is
+//! set, of one symmetric under reflection in the x-axis, on which the first point of ring 1 lies (spoke 0, or
+//! the diagonal of sector 0 around a face). Enclosures that contradict these are refused. Only sector 0 is
+//! then examined. Nets without rotation symmetry ([`PlaneNet::whole`]) are examined in all sectors. Their two
+//! coordinates may belong to two eigenvalues `lambda_1 > lambda_2`: the map is then extended by `X(2 t) =
+//! X(t) / diag(lambda_1, lambda_2)`, and what is said below holds for it as well (Zorin 2000, *Smoothness of
+//! stationary subdivision on irregular meshes*, Constructive Approximation 16). Scaled by these powers, rings
+//! of almost all nets tend to affine images of the map, since every further eigenvalue is below lambda_2; the
+//! leading term of their normals is `(lambda_1 lambda_2)^m` times the Jacobian, and the quotient of the
+//! punctured plane by the scaling is a torus again.
 
 mod corner;
 pub mod find;
@@ -215,9 +215,9 @@ impl<S: Coefficient> PlaneNet<S> {
         self.annulus().numbering.fan.sectors()
     }
 
-    /// The patches that stand for all others under rotation, and under reflection where the net has it:
-    /// those of sector 0, of mirror images the one nearer to the own spoke. Without rotation symmetry those
-    /// of all sectors.
+    /// The patches that stand for all others under rotation, and under reflection where the net has it: those
+    /// of sector 0, of mirror images the one nearer to the own spoke. Without rotation symmetry those of all
+    /// sectors.
     pub fn patches(&self) -> Vec<PatchIndex> {
         self.representatives()
             .flat_map(|sector| self.annulus().patches(sector))

@@ -1,7 +1,7 @@
 //! The mean-value form: sharp ranges of formulas over a small range of their parameters.
 //!
-//! Intervals forget that two occurrences of a parameter are the same number, and the width of the result of
-//! a formula grows with the number of occurrences. The centred form keeps the dependence to first order
+//! Intervals forget that two occurrences of a parameter are the same number, and the width of the result of a
+//! formula grows with the number of occurrences. The centred form keeps the dependence to first order
 //! (Neumaier 1990, section 2.3): with the parameters `p_j = m_j + r_j t_j`, `t_j` in `[-1, 1]`,
 //!
 //! ```text
@@ -9,8 +9,8 @@
 //! ```
 //!
 //! whose overestimation is quadratic in the `r_j` where that of plain intervals is linear. [`Centred`]
-//! carries `f(m)`, the slopes and the range through a formula and intersects the two forms of the range
-//! after every operation, so any code written over [`Scalar`] runs with it.
+//! carries `f(m)`, the slopes and the range through a formula and intersects the two forms of the range after
+//! every operation, so any code written over [`Scalar`] runs with it.
 //!
 //! Slopes obey the rules of derivatives with one factor taken at the centre (Krawczyk and Neumaier 1985),
 //! hence are never wider than derivatives over the range: for a product `a b - a(m) b(m) = (a - a(m)) b +
@@ -26,8 +26,8 @@ pub trait Enclose: Coefficient {
     /// An interval that holds every value the number can have.
     fn enclosure(&self) -> Interval;
 
-    /// An interval that holds the value at the centre of the parameters; the enclosure itself where there
-    /// are none.
+    /// An interval that holds the value at the centre of the parameters; the enclosure itself where there are
+    /// none.
     fn central(&self) -> Interval {
         self.enclosure()
     }
@@ -293,8 +293,7 @@ mod tests {
                 }
                 for (found, exact) in exact {
                     assert!(holds(found.enclosure(), &exact), "{x:?} {y:?} {found:?} {exact}");
-                    // the slopes lead from the centre to the value: exact ends of their products with s and
-                    // t
+                    // the slopes lead from the centre to the value: exact ends of their products with s and t
                     let [a, b] = found.slopes;
                     if [a, b, found.central].iter().all(|part| part.is_bounded()) {
                         let reach = |low: bool| {

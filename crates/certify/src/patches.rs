@@ -127,8 +127,8 @@ impl Patches {
         })
     }
 
-    /// The control points of a patch in the numbering, those of a line along the own spoke for each along
-    /// the next.
+    /// The control points of a patch in the numbering, those of a line along the own spoke for each along the
+    /// next.
     pub fn control(&self, patch: PatchIndex) -> Vec<usize> {
         let Some([own, next]) = self.segments(patch) else {
             return self.annulus.control(patch);

@@ -156,9 +156,9 @@ impl<'a> Proof<'a> {
         self.checks
     }
 
-    /// Where levels differ, what refutes a statement about the limit level refutes one about the surface
-    /// only if some net shows it after the leading levels: the tangents do if `levels` is proven, and of
-    /// other modes nothing is known.
+    /// Where levels differ, what refutes a statement about the limit level refutes one about the surface only
+    /// if some net shows it after the leading levels: the tangents do if `levels` is proven, and of other
+    /// modes nothing is known.
     fn of_the_limit_level(&mut self) {
         if self.subject.scheme.leading().is_empty() {
             return;
@@ -268,8 +268,8 @@ fn characteristic(spectrum: &Spectrum, lambda: &Subdominant) -> Option<PlaneNet<
     PlaneNet::new(spectrum.patches.annulus, 1, true, parts(net)).ok()
 }
 
-/// The maps of the largest further eigenvalues of the blocks 0 and 2 (N = 3: of block 1 once more; N = 4:
-/// two of block 2).
+/// The maps of the largest further eigenvalues of the blocks 0 and 2 (N = 3: of block 1 once more; N = 4: two
+/// of block 2).
 fn second_order_maps(
     spectrum: &Spectrum,
     lambda: &Subdominant,

@@ -1,10 +1,10 @@
 //! Proofs for a continuous range of lambda.
 //!
 //! The lambda-scheme with f2 and f3 as splines of lambda is a curve of schemes. To prove a statement for
-//! every lambda of a range, the range is covered by intervals ([`Tile`]s), and each statement is checked
-//! for a whole interval at once, with [`Centred`] numbers in place of doubles: closed forms, second-order
-//! slopes, Bernstein coefficients. Overestimation falls with the square of the width, so that a relative
-//! margin of 1e-6 needs intervals of about its root, some hundred in all.
+//! every lambda of a range, the range is covered by intervals ([`Tile`]s), and each statement is checked for
+//! a whole interval at once, with [`Centred`] numbers in place of doubles: closed forms, second-order slopes,
+//! Bernstein coefficients. Overestimation falls with the square of the width, so that a relative margin of
+//! 1e-6 needs intervals of about its root, some hundred in all.
 //!
 //! * **Knots** of the splines are ends of tiles: on a tile the splines are polynomials.
 //! * **The relaxation** s(lambda) has kinks at irrational places. On a tile that cannot exclude one, every
@@ -12,10 +12,10 @@
 //! * **A zero is an exact zero**: where all coefficients of f3 on a span are zero, f3 is, and so is what it
 //!   multiplies.
 //!
-//! Three groups of statements have coverings of their own: eigenvalues for C1 (`subdominant`, with
-//! `dominant` in it), eigenvalues for curvature (`bounded_curvature`, `strict`), and the characteristic map
-//! (`regular`, `injective`). The search ([`prove_range`]) bisects until a tile is decided; the check
-//! ([`recheck_range`]) verifies that the tiles cover the range and decides each again.
+//! Three groups of statements have coverings of their own: eigenvalues for C1 (`subdominant`, with `dominant`
+//! in it), eigenvalues for curvature (`bounded_curvature`, `strict`), and the characteristic map (`regular`,
+//! `injective`). The search ([`prove_range`]) bisects until a tile is decided; the check ([`recheck_range`])
+//! verifies that the tiles cover the range and decides each again.
 
 mod conditions;
 mod net;
@@ -508,8 +508,8 @@ impl RangeRecheck {
     }
 }
 
-/// Checks the text of a stored certificate again; it must be exactly what is written for the certificate
-/// that it holds.
+/// Checks the text of a stored certificate again; it must be exactly what is written for the certificate that
+/// it holds.
 ///
 /// # Errors
 /// Those of reading it; of the curve; [`Error::Range`].

@@ -1,10 +1,10 @@
 //! Statements about weights: affine invariance and the convex hull property.
 //!
 //! Both are read off the rows of the refinement itself, whatever passes it is made of: a refined point is
-//! affinely invariant if the weights of control points in it sum to 1, and in the convex hull if they are
-//! not negative. Beyond the rings that special stencils reach every row is one of the regular ones, so that
-//! two rings more than those show all rows. Levels that differ are looked at one by one, those beyond the
-//! leading ones with rules that enclose all of theirs, the limit level last.
+//! affinely invariant if the weights of control points in it sum to 1, and in the convex hull if they are not
+//! negative. Beyond the rings that special stencils reach every row is one of the regular ones, so that two
+//! rings more than those show all rows. Levels that differ are looked at one by one, those beyond the leading
+//! ones with rules that enclose all of theirs, the limit level last.
 
 use crate::exact::{Field, row_sum_defect};
 use crate::input::passes_are_affine;

@@ -5,8 +5,7 @@
 //! eigenvalues of their own, and one that equals lambda makes it defective. It is taken apart before anything
 //! is enclosed:
 //!
-//! 1. into Fourier [`Block`]s, real where the rules have mirror symmetry; block N-k is the conjugate of
-//! block
+//! 1. into Fourier [`Block`]s, real where the rules have mirror symmetry; block N-k is the conjugate of block
 //!    k; unknowns that no patch depends on, at any level, are dropped;
 //! 2. block 0 is divided by the constant vector, whose eigenvalue 1 is exact where rows sum to 1 exactly;
 //! 3. each block into the strongly connected components of its graph, with entries that are **exactly** zero
@@ -39,8 +38,8 @@ pub type Evidence = Vec<Vec<Peel>>;
 pub struct Spectrum {
     /// Where the patches are, and their control points.
     pub patches: Patches,
-    /// The coordinates of the points, if rules that differ from sector to sector halve them: two
-    /// eigenvectors of 1/2, without which the one block is.
+    /// The coordinates of the points, if rules that differ from sector to sector halve them: two eigenvectors
+    /// of 1/2, without which the one block is.
     pub coordinates: Option<[Vec<Interval>; 2]>,
     /// The blocks of index 0 to N/2, or the undivided matrix as the only one.
     pub blocks: Vec<Block>,
@@ -194,8 +193,8 @@ impl Problem {
     }
 }
 
-/// The largest number of unknowns of a block: dense matrices, of which there are N/2 + 1. Tension of order
-/// 22 needs 930.
+/// The largest number of unknowns of a block: dense matrices, of which there are N/2 + 1. Tension of order 22
+/// needs 930.
 pub const MAX_BLOCK: usize = 1000;
 
 /// The largest number of points of an undivided matrix, of which there is one. Order 6 around 32 sectors

@@ -210,8 +210,7 @@ fn a_row_sum_off_by_a_billionth_is_refuted() {
 
 #[test]
 fn a_negative_subdominant_eigenvalue_is_refuted() {
-    // the E row alone makes d2 + 2 e1 cos(2 pi k/5) in block k != 0: -.46 at k = 1, less in modulus
-    // elsewhere
+    // the E row alone makes d2 + 2 e1 cos(2 pi k/5) in block k != 0: -.46 at k = 1, less in modulus elsewhere
     let leading = [
         ("d1", "8/5"),
         ("d2", "-2/5"),

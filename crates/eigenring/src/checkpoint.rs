@@ -69,8 +69,7 @@ impl Checkpoint {
             source,
         };
         let line = serde_json::to_string(sample).map_err(|error| failed(error.into()))? + "\n";
-        // a poisoned lock means that another thread panicked while writing; its line is dropped on
-        // resumption
+        // a poisoned lock means that another thread panicked while writing; its line is dropped on resumption
         let mut file = self.file.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         file.write_all(line.as_bytes()).map_err(failed)
     }

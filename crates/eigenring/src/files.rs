@@ -1,7 +1,7 @@
 //! Standard output, and the files that commands write beside it.
 //!
-//! A file is complete or not there; a device or a pipe is written into. Every file is named on standard
-//! error as soon as it is written, unless the command lists its files itself.
+//! A file is complete or not there; a device or a pipe is written into. Every file is named on standard error
+//! as soon as it is written, unless the command lists its files itself.
 
 use crate::error::Error;
 use crate::progress::{note, say};

@@ -90,8 +90,8 @@ impl Extension for FormatArg {
     }
 }
 
-/// The format for a file: what its extension says, which a format that is given must not contradict; else
-/// the one that is given.
+/// The format for a file: what its extension says, which a format that is given must not contradict; else the
+/// one that is given.
 ///
 /// # Errors
 /// A format that contradicts the extension.

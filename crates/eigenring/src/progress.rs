@@ -1,7 +1,7 @@
 //! Progress of long work: bars on standard error, and only if that is a terminal.
 //!
-//! Nothing is shown of work that takes less than a second. Whatever a command does, a line with the time
-//! that has passed appears then ([`watch`]); bars of counted work stand below it.
+//! Nothing is shown of work that takes less than a second. Whatever a command does, a line with the time that
+//! has passed appears then ([`watch`]); bars of counted work stand below it.
 
 use eigenring_atlas::progress::{Progress, Task};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};

@@ -1,5 +1,4 @@
-//! Bad input: exit code 2, nothing on standard output, one line on standard error that says what is
-//! accepted.
+//! Bad input: exit code 2, nothing on standard output, one line on standard error that says what is accepted.
 
 #![allow(missing_docs)]
 

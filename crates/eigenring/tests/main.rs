@@ -1,5 +1,5 @@
-//! The command as its users see it: output, files and exit codes, run as a process. One binary, since
-//! linking takes longer than running.
+//! The command as its users see it: output, files and exit codes, run as a process. One binary, since linking
+//! takes longer than running.
 
 mod common;
 mod contract;

@@ -1,5 +1,4 @@
-//! Axes and grids, which plotters draws: where values lie, where the ticks are, and the room for their
-//! texts.
+//! Axes and grids, which plotters draws: where values lie, where the ticks are, and the room for their texts.
 //!
 //! The ticks are those of [`crate::ticks`], chosen by the printed length of the axis. plotters' own choice
 //! leaves a single tick where no multiple of a coarser step fits, writes no powers of ten, and has no minor
@@ -123,8 +122,8 @@ impl Axis {
         }
     }
 
-    /// The ticks of a horizontal axis of about this length whose texts stand side by side: as many as fit.
-    /// If not even two do, since they have too many digits, they count from a base, which the label tells.
+    /// The ticks of a horizontal axis of about this length whose texts stand side by side: as many as fit. If
+    /// not even two do, since they have too many digits, they count from a base, which the label tells.
     fn fitting(&self, length: f64, font: &Font) -> Result<(Vec<Tick>, Option<String>), Error> {
         let most = most_ticks(length, PER_X_TICK);
         let usual = self.ticks(most, 0.0);

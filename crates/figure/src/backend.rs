@@ -2,9 +2,8 @@
 //!
 //! plotters counts in whole pixels. With a micrometre for each, which is also the last decimal of the SVG,
 //! nothing that it rounds is seen. It places texts by anchors; here they become outlines of the embedded
-//! font, with a box for the tests of the layout. Its styles have neither dashes nor markers with a line and
-//! a filling of different colours, so that lines and markers are elements of our own, which plotters
-//! places.
+//! font, with a box for the tests of the layout. Its styles have neither dashes nor markers with a line and a
+//! filling of different colours, so that lines and markers are elements of our own, which plotters places.
 
 use crate::chart::Marker;
 use crate::colour::Colour;
@@ -56,9 +55,8 @@ fn colour(style: BackendColor) -> Colour {
     Colour(r, g, b)
 }
 
-/// Where the baseline lies below the upper end, the middle and the lower end of a text, relative to its
-/// size: digits and capitals of the font are 0.73 high, and centred by their middle; descenders have a
-/// quarter.
+/// Where the baseline lies below the upper end, the middle and the lower end of a text, relative to its size:
+/// digits and capitals of the font are 0.73 high, and centred by their middle; descenders have a quarter.
 const TOP: f64 = 0.76;
 pub(crate) const MIDDLE: f64 = 0.36;
 const BOTTOM: f64 = -0.25;
@@ -84,8 +82,7 @@ impl<'p> Backend<'p> {
         });
     }
 
-    /// Whether both points are corners of the frame, up to the pixel by which plotters keeps its areas
-    /// apart.
+    /// Whether both points are corners of the frame, up to the pixel by which plotters keeps its areas apart.
     fn is_side(&self, points: &[BackendCoord]) -> bool {
         let near = |a: i32, b: f64| (a - pixels(b)).abs() <= 1;
         let Rect {

@@ -379,8 +379,8 @@ impl Chart {
         })
     }
 
-    /// Polygons coloured by a value each, without seams between them, drawn by rising value. The panel or
-    /// the figure needs a colour bar for the scale.
+    /// Polygons coloured by a value each, without seams between them, drawn by rising value. The panel or the
+    /// figure needs a colour bar for the scale.
     pub fn cells(mut self, cells: impl IntoIterator<Item = (Vec<[f64; 2]>, f64)>, scale: &ColourScale) -> Self {
         let mut cells: Vec<_> = cells.into_iter().collect();
         cells.sort_by(|a, b| a.1.total_cmp(&b.1));

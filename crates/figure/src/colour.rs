@@ -24,8 +24,8 @@ impl Colour {
     /// Shading of an interval that is recommended.
     pub const SHADE: Colour = Colour(0xe3, 0xf1, 0xe8);
 
-    /// After Okabe and Ito, blue and purple darkened and yellow turned to ochre, so that neighbours differ
-    /// in grey and none is too light for a line: blue, vermillion, purple, green, sky blue, ochre.
+    /// After Okabe and Ito, blue and purple darkened and yellow turned to ochre, so that neighbours differ in
+    /// grey and none is too light for a line: blue, vermillion, purple, green, sky blue, ochre.
     pub const LINES: [Colour; 6] = [
         Colour(0x00, 0x5b, 0x96),
         Colour(0xd5, 0x5e, 0x00),

@@ -1,7 +1,7 @@
 //! Charts on the page: margins for their texts, then axes and layers.
 //!
-//! plotters draws axes, grids and what is drawn along them ([`crate::axes`], [`crate::layers`]). The texts
-//! of rules, which move apart where they are too close, have no counterpart there.
+//! plotters draws axes, grids and what is drawn along them ([`crate::axes`], [`crate::layers`]). The texts of
+//! rules, which move apart where they are too close, have no counterpart there.
 
 use crate::axes::Axes;
 use crate::chart::{Chart, Layer};

@@ -29,8 +29,8 @@ enum Swatch {
     Rule(Stroke),
 }
 
-/// Lengths of a legend, in millimetres: sample, its distance to the text, distance between entries, height
-/// of a row.
+/// Lengths of a legend, in millimetres: sample, its distance to the text, distance between entries, height of
+/// a row.
 const SAMPLE: f64 = 6.0;
 const BESIDE: f64 = 1.0;
 const BETWEEN: f64 = 3.2;
@@ -42,8 +42,7 @@ pub(crate) struct Legend {
 }
 
 impl Legend {
-    /// The labelled layers of all charts of which something is seen; a text that occurs twice is listed
-    /// once.
+    /// The labelled layers of all charts of which something is seen; a text that occurs twice is listed once.
     pub fn of<'a>(charts: impl IntoIterator<Item = &'a Chart>, page: &Page) -> Result<Self, Error> {
         let mut entries: Vec<(Swatch, String, f64)> = Vec::new();
         let layers = charts

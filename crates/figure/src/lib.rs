@@ -47,9 +47,9 @@
 //! ```
 //!
 //! Where things go: panels are aligned by their frames; legends stand above, below or to the right of the
-//! data, never on them; a colour bar is at the right of its panel, or of the figure. [`Layout::faults`]
-//! finds texts that leave the page or overlap, legends that cover data or list what is not drawn, and is
-//! meant for tests of figures.
+//! data, never on them; a colour bar is at the right of its panel, or of the figure. [`Layout::faults`] finds
+//! texts that leave the page or overlap, legends that cover data or list what is not drawn, and is meant for
+//! tests of figures.
 
 mod axes;
 mod backend;

@@ -42,8 +42,7 @@ impl Pixels {
     /// baseline. Symbols stand between dollar signs, as in [figures](crate::Figure).
     ///
     /// # Errors
-    /// [`Error::Character`] for what the embedded font lacks, [`Error::Raster`] for a picture without
-    /// pixels.
+    /// [`Error::Character`] for what the embedded font lacks, [`Error::Raster`] for a picture without pixels.
     pub fn text(&mut self, text: &str, x: f64, y: f64, size: f64, colour: Colour) -> Result<(), Error> {
         let font = Font::new();
         let line = font.line(text, size)?;

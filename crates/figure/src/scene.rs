@@ -190,8 +190,7 @@ fn path_data(lines: &[Vec<[f64; 2]>], closed: bool) -> String {
     data
 }
 
-/// Closed polygons in whole units, each corner relative to the one before; `pen` is where the last one
-/// began.
+/// Closed polygons in whole units, each corner relative to the one before; `pen` is where the last one began.
 fn mesh_data(cell: &[[f64; 2]], pen: &mut [i64; 2], data: &mut String) {
     let mut at = *pen;
     for (index, corner) in cell

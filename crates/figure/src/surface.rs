@@ -1,7 +1,7 @@
 //! Surfaces in space: orthographic projection, painter's algorithm.
 //!
-//! Colours are those of the bar and nothing else: light and shadow would alter the values that a reader
-//! takes from them. The lines on a surface show its form.
+//! Colours are those of the bar and nothing else: light and shadow would alter the values that a reader takes
+//! from them. The lines on a surface show its form.
 //!
 //! A surface is a list of small quadrilaterals. Seen along the unit vector `d = (cos e cos a, cos e sin a,
 //! sin e)` from the eye's side (azimuth a, elevation e), a point is drawn at its coordinates along `(-sin

@@ -9,8 +9,8 @@ pub(crate) struct Tick {
     pub text: String,
 }
 
-/// Ticks at multiples of 1, 2 or 5 times a power of ten: the finest such step with at most `most` of them,
-/// or the next finer one if that leaves a single tick, from which no scale can be read.
+/// Ticks at multiples of 1, 2 or 5 times a power of ten: the finest such step with at most `most` of them, or
+/// the next finer one if that leaves a single tick, from which no scale can be read.
 pub(crate) fn linear(low: f64, high: f64, most: usize) -> Vec<Tick> {
     let span = high - low;
     let finest = (span / most.max(1) as f64).log10().floor() as i32 - 1;

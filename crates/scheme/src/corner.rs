@@ -194,8 +194,8 @@ impl Corner {
         self
     }
 
-    /// The same with creases, and a fixed centre, that act in the first `steps` smoothing steps of each
-    /// level only; boundaries act in all. For schemes of even order with several steps.
+    /// The same with creases, and a fixed centre, that act in the first `steps` smoothing steps of each level
+    /// only; boundaries act in all. For schemes of even order with several steps.
     pub fn with_steps(mut self, steps: usize) -> Self {
         self.steps = Some(steps);
         self

@@ -47,8 +47,8 @@ impl Definition {
         Corner::closed(self.centre(), valence)
     }
 
-    /// The rules around an inner centre of any valence: those [around](Definition::around) a closed fan of
-    /// so many like sectors, of which there may be more than a local matrix can have.
+    /// The rules around an inner centre of any valence: those [around](Definition::around) a closed fan of so
+    /// many like sectors, of which there may be more than a local matrix can have.
     ///
     /// # Errors
     /// Those of the family or file.

@@ -27,8 +27,8 @@ pub enum Error {
         /// The lambda it was given for.
         lambda: f64,
     },
-    /// The rule for s asks for a mu that is not below lambda: what is out of range is the valence, and not
-    /// an s that was given.
+    /// The rule for s asks for a mu that is not below lambda: what is out of range is the valence, and not an
+    /// s that was given.
     #[error(
         "at N = {valence}, lambda = {lambda} the rule for s gives {s}, which is not below 1/lambda = {}{}: accepted is a smaller valence",
         1.0 / lambda,

@@ -8,8 +8,8 @@ use num_traits::{One, Signed, Zero};
 use std::collections::BTreeMap;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// A fraction of a full turn, `(n, k)` for k/n: `0 < 2k < n`, in lowest terms. Only angles with an
-/// irrational cosine occur.
+/// A fraction of a full turn, `(n, k)` for k/n: `0 < 2k < n`, in lowest terms. Only angles with an irrational
+/// cosine occur.
 type Turn = (i64, i64);
 
 /// The largest order of a root of unity that is reckoned with: a vertex of valence 1000 with sines of its
@@ -34,8 +34,8 @@ const MAX_RADICAND: i64 = 127;
 #[derive(Clone, Debug)]
 pub struct Cosines {
     rational: BigRational,
-    /// No factor is zero. Cosines of different turns may depend on each other, so that one number has
-    /// several such forms.
+    /// No factor is zero. Cosines of different turns may depend on each other, so that one number has several
+    /// such forms.
     terms: BTreeMap<Turn, BigRational>,
 }
 
@@ -44,11 +44,11 @@ pub struct Cosines {
 /// number without value, and so does every operation with one.
 ///
 /// Numbers are sums of cosines of rational turns, which sums, products, conjugates and square roots of
-/// rational numbers are again. Equality is decided: `sum of c_k w^k` with `w = exp(2 pi i/n)` has one form
-/// in the basis of powers of w that is left when for every prime p dividing n, with `p^a` the power in n,
-/// the exponents whose p-part (as an element of `Z/p^a`) has p - 1 as its first digit are replaced by `w^k
-/// = -(w^(k + n/p) + .. + w^(k + (p-1) n/p))`: the p-parts are independent of each other, and phi(n) powers
-/// remain.
+/// rational numbers are again. Equality is decided: `sum of c_k w^k` with `w = exp(2 pi i/n)` has one form in
+/// the basis of powers of w that is left when for every prime p dividing n, with `p^a` the power in n, the
+/// exponents whose p-part (as an element of `Z/p^a`) has p - 1 as its first digit are replaced by
+/// `w^k = -(w^(k + n/p) + .. + w^(k + (p-1) n/p))`: the p-parts are independent of each other, and phi(n)
+/// powers remain.
 ///
 /// Symmetry and the degree of the regular part are derived from these numbers, and equalities of weights are
 /// decided in them.

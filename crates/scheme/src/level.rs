@@ -210,8 +210,7 @@ impl<W: Clone> Level<W> {
         }
     }
 
-    /// The same rules with other weights. The symmetry is kept: weights that are the same get the same
-    /// image.
+    /// The same rules with other weights. The symmetry is kept: weights that are the same get the same image.
     pub fn map<T: Clone>(&self, mut f: impl FnMut(&W) -> T) -> Level<T> {
         Level {
             fan: self.fan,
@@ -284,8 +283,7 @@ impl<S: Scalar> Level<S> {
 
     /// The mask of one level of refinement at regular points: the weight with which each refined point, at
     /// half steps from twice the source's place, reads the source. `None` unless it is the same in all
-    /// sectors and directions and on both sides of every spoke, where each line must be its own mirror
-    /// image.
+    /// sectors and directions and on both sides of every spoke, where each line must be its own mirror image.
     pub fn regular_mask(&self) -> Option<BTreeMap<i32, S>> {
         let uniform = |pass: &Pass<S>| {
             let mut lines = pass.all_lines();

@@ -11,9 +11,9 @@ pub type Taps<W> = Vec<(i32, W)>;
 ///
 /// All positions are in half steps from the spoke. A target point `X` belongs to the class `floor(X/2) mod
 /// scale`; a tap `(offset, w)` of its class reads the source point `(X + offset) / scale` with weight `w`.
-/// Targets near the spoke may have taps of their own, given by their sources: a crease keeps what lies
-/// beyond it out of its rules, and knot intervals change from one side of a spoke to the other. Beyond them
-/// the rule is uniform.
+/// Targets near the spoke may have taps of their own, given by their sources: a crease keeps what lies beyond
+/// it out of its rules, and knot intervals change from one side of a spoke to the other. Beyond them the rule
+/// is uniform.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line<W> {
     classes: Vec<Taps<W>>,
@@ -207,8 +207,8 @@ mod tests {
                 let taps: Vec<(i32, f64)> = line.taps(x).collect();
                 assert!((taps.iter().map(|t| t.1).sum::<f64>() - 1.0).abs() < 1e-15);
                 let mean: f64 = taps.iter().map(|&(source, w)| w * f64::from(source)).sum();
-                // straight lines are reproduced at their own place by all rules but corner cutting off u =
-                // 1, which moves the points of both classes by (1-u)/(1+u) half steps towards each other
+                // straight lines are reproduced at their own place by all rules but corner cutting off u = 1,
+                // which moves the points of both classes by (1-u)/(1+u) half steps towards each other
                 let shift = mean * f64::from(line.scale()) - f64::from(x);
                 let expected = if line == Line::corner_cutting(u) {
                     let towards = if x.div_euclid(2).rem_euclid(2) == 0 { -1.0 } else { 1.0 };

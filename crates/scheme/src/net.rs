@@ -1,10 +1,10 @@
 //! Running passes: what is combined, where it is read, and the one interpreter.
 //!
-//! A pass says how points combine; it does not say what a point is. The interpreter, a [`Plan`] that is
-//! made once and run on nets ([`refine`] does both), runs the passes of a level for any [`Net`]: rows of
-//! the local matrix ([`DenseNet`]), rows of a Fourier block ([`FourierNet`]), points of a surface
-//! ([`PointNet`]), or a mere mark (is a special stencil involved?). Local matrix, Fourier blocks and
-//! refinement thus come from the same rules by construction.
+//! A pass says how points combine; it does not say what a point is. The interpreter, a [`Plan`] that is made
+//! once and run on nets ([`refine`] does both), runs the passes of a level for any [`Net`]: rows of the local
+//! matrix ([`DenseNet`]), rows of a Fourier block ([`FourierNet`]), points of a surface ([`PointNet`]), or a
+//! mere mark (is a special stencil involved?). Local matrix, Fourier blocks and refinement thus come from the
+//! same rules by construction.
 
 use crate::{Error, Level, Numbering, Scalar, Site, Table};
 

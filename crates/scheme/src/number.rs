@@ -15,8 +15,7 @@ pub struct Number(BigRational);
 /// more.
 const MAX_LENGTH: usize = 2000;
 
-/// The largest power of ten beside a mantissa: beyond it a number is no double, however long its mantissa
-/// is.
+/// The largest power of ten beside a mantissa: beyond it a number is no double, however long its mantissa is.
 const MAX_EXPONENT: i32 = 3000;
 
 impl Number {

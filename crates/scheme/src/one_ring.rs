@@ -66,8 +66,8 @@ impl<S> OneRing<S> {
 }
 
 impl<S: Clone> OneRing<S> {
-    /// The level with these weights, of the centre's own weight, that of each edge neighbour and of each
-    /// face neighbour in `[own, edge, face]`, and with the regular ones made by `ratio`.
+    /// The level with these weights, of the centre's own weight, that of each edge neighbour and of each face
+    /// neighbour in `[own, edge, face]`, and with the regular ones made by `ratio`.
     pub(crate) fn level_of(
         &self,
         valence: usize,
@@ -107,8 +107,8 @@ impl<S: Scalar> OneRing<S> {
         ]
     }
 
-    /// The scheme: uniform bicubic refinement with these stencils at V, E_i and F_i. It has dihedral
-    /// symmetry whatever the weights are.
+    /// The scheme: uniform bicubic refinement with these stencils at V, E_i and F_i. It has dihedral symmetry
+    /// whatever the weights are.
     ///
     /// # Errors
     /// [`Error::Valence`] below 3.

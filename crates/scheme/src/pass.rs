@@ -39,8 +39,8 @@ impl<W: Clone> Pass<W> {
 
     /// A pass without special points whose rules differ from spoke to spoke: `lines[i]` are those of the
     /// sector that begins at spoke i, along that spoke (across the next) and along the next (across that
-    /// spoke). There is one pair for each [spoke](Fan::spokes); the last of an open fan belongs to the
-    /// points of its last spoke.
+    /// spoke). There is one pair for each [spoke](Fan::spokes); the last of an open fan belongs to the points
+    /// of its last spoke.
     pub fn by_sector(from: Lattice, to: Lattice, lines: Vec<[Line<W>; 2]>) -> Self {
         Pass {
             from,
@@ -156,9 +156,8 @@ impl<W: Clone> Pass<W> {
             .flat_map(move |x| ys.clone().into_iter().map(move |y| (x, y)))
     }
 
-    /// Where a regular rule of `site` finds the point `(x, y)` of its sector's plane. A point of a spoke
-    /// that reads straight across the centre has two continuations, which agree only where four sectors
-    /// meet.
+    /// Where a regular rule of `site` finds the point `(x, y)` of its sector's plane. A point of a spoke that
+    /// reads straight across the centre has two continuations, which agree only where four sectors meet.
     pub(crate) fn source(fan: Fan, site: Site, x: i32, y: i32) -> Option<Site> {
         if site.y == 0 && y == 0 && x < 0 && fan != Fan::Closed(4) {
             return None;

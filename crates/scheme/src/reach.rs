@@ -3,8 +3,8 @@
 use crate::{Error, Lattice, Level, Numbering, Site};
 use std::collections::BTreeSet;
 
-/// Nets beyond this many rings are not looked at: order 32, the largest there is, closes with 15, and
-/// special points that a file may list lie within 32.
+/// Nets beyond this many rings are not looked at: order 32, the largest there is, closes with 15, and special
+/// points that a file may list lie within 32.
 const MAX_RINGS: usize = 128;
 
 /// The most points to look at one by one: looking at so many takes about a second, and a dense matrix of a

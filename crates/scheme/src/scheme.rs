@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 
 /// A subdivision scheme around one extraordinary vertex or face.
 ///
-/// A scheme is data, made by the constructor of its family. A non-stationary scheme lists its leading
-/// levels; from then on its limit level holds, the one that governs continuity.
+/// A scheme is data, made by the constructor of its family. A non-stationary scheme lists its leading levels;
+/// from then on its limit level holds, the one that governs continuity.
 #[derive(Clone, Debug)]
 pub struct Scheme<S> {
     name: String,

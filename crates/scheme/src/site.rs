@@ -14,12 +14,12 @@
 //!            centre     spoke i
 //! ```
 //!
-//! Ring `r` of a vertex net is `max(a, b) = r`, the centre being ring 0; R rings hold `1 + N R (R+1)`
-//! points. Ring `r` of a face net is `max(a, b) = r`; rings 0 to R hold `N (R+1)^2` points.
+//! Ring `r` of a vertex net is `max(a, b) = r`, the centre being ring 0; R rings hold `1 + N R (R+1)` points.
+//! Ring `r` of a face net is `max(a, b) = r`; rings 0 to R hold `N (R+1)^2` points.
 //!
-//! Around a centre on a boundary, or on one side of a crease, N sectors form an **open** fan with spokes 0
-//! to N. The last spoke belongs to no sector of faces; its points have the sector N and `y = 0`, and R
-//! rings hold R points more.
+//! Around a centre on a boundary, or on one side of a crease, N sectors form an **open** fan with spokes 0 to
+//! N. The last spoke belongs to no sector of faces; its points have the sector N and `y = 0`, and R rings
+//! hold R points more.
 
 /// How the sectors around a centre are joined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -230,8 +230,7 @@ impl Numbering {
         }
     }
 
-    /// The number of points of one sector, centre not counted: the size of a Fourier block with index k !=
-    /// 0.
+    /// The number of points of one sector, centre not counted: the size of a Fourier block with index k != 0.
     pub fn sector_points(self) -> usize {
         self.sector_points_before(self.rings + 1)
     }

@@ -291,8 +291,8 @@ impl<'a> Parameters<'a> {
     }
 }
 
-/// The names of parameters in the usage of a family, `name:key=VALUE[,key=VALUE]`: runs of letters and
-/// digits before a `=`, and words that stand alone.
+/// The names of parameters in the usage of a family, `name:key=VALUE[,key=VALUE]`: runs of letters and digits
+/// before a `=`, and words that stand alone.
 fn names(usage: &str) -> impl Iterator<Item = &str> {
     let parts = usage.split(|letter: char| !letter.is_ascii_alphanumeric() && letter != '-');
     // values are written in capital letters

@@ -1,11 +1,11 @@
 //! Strongly connected components of a matrix: its eigenvalues without the accidents of its nilpotent parts.
 //!
-//! Local matrices are full of structure: refined points of outer rings depend on inner ones only, so that,
-//! in a suitable order, the matrix is block triangular with many zero diagonal blocks. A QR iteration on
-//! the whole matrix does not see this and scatters a defective eigenvalue 0 of index m over a disc of
-//! radius `eps^(1/m)`. The eigenvalues of a matrix are those of the diagonal blocks that belong to the
-//! strongly connected components of its directed graph (entry (i, j) != 0 is an edge from i to j); an exact
-//! zero then is an exact zero.
+//! Local matrices are full of structure: refined points of outer rings depend on inner ones only, so that, in
+//! a suitable order, the matrix is block triangular with many zero diagonal blocks. A QR iteration on the
+//! whole matrix does not see this and scatters a defective eigenvalue 0 of index m over a disc of radius
+//! `eps^(1/m)`. The eigenvalues of a matrix are those of the diagonal blocks that belong to the strongly
+//! connected components of its directed graph (entry (i, j) != 0 is an edge from i to j); an exact zero then
+//! is an exact zero.
 
 /// The strongly connected components of the graph on `0..size` with the edges `edge(i, j)`, each sorted, in
 /// order of their smallest element. Tarjan's algorithm (R. Tarjan, *Depth-first search and linear graph

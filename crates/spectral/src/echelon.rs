@@ -6,8 +6,8 @@ use eigenring_scheme::Complex;
 /// An entry of a unit eigenvector below this is zero in the echelon form. Empirical: vectors are accurate to
 /// 1e-12.
 pub(crate) const PIVOT: f64 = 1e-8;
-/// `l . r` of unit vectors below this marks a (nearly) defective eigenvalue: its functional would be known
-/// to less than five digits.
+/// `l . r` of unit vectors below this marks a (nearly) defective eigenvalue: its functional would be known to
+/// less than five digits.
 const DEFECTIVE: f64 = 1e-10;
 
 /// Bases of an eigenspace and of its dual, as unknowns of the block.

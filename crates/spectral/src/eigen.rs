@@ -2,15 +2,15 @@
 //!
 //! **Values** are computed component by component (see [`components`](crate::components)), each by a QR
 //! iteration. Within a component, values closer than [`EQUAL`] times its norm are taken as one repeated
-//! value, represented by their mean: a defective eigenvalue of index m is scattered by rounding over a
-//! circle of radius `eps^(1/m)`, but the mean of the scattered values keeps full accuracy. Values of
-//! different components are computed independently and merged within [`MERGED`].
+//! value, represented by their mean: a defective eigenvalue of index m is scattered by rounding over a circle
+//! of radius `eps^(1/m)`, but the mean of the scattered values keeps full accuracy. Values of different
+//! components are computed independently and merged within [`MERGED`].
 //!
 //! **Vectors** span the null spaces of `S - ev` and of its transpose, found by a singular value
 //! decomposition, which is as stable for repeated as for simple values. Its dimension is the geometric
-//! multiplicity; below the algebraic one the eigenvalue is defective. Near a resonance (mu close to the
-//! outer rings' 1/8) two eigenvectors become parallel, and left and right vectors orthogonal: their product
-//! is the reciprocal condition number of the eigenvalue, given with each [`Mode`](crate::Mode).
+//! multiplicity; below the algebraic one the eigenvalue is defective. Near a resonance (mu close to the outer
+//! rings' 1/8) two eigenvectors become parallel, and left and right vectors orthogonal: their product is the
+//! reciprocal condition number of the eigenvalue, given with each [`Mode`](crate::Mode).
 
 use crate::components::strong_components;
 use crate::{Block, Error};
@@ -28,8 +28,7 @@ pub const EQUAL: f64 = 1e-7;
 pub const MERGED: f64 = 1e-12;
 
 /// A singular value of `S - value` below this times the largest, or times the value, is zero. Empirical:
-/// rounding leaves 1e-16 to 1e-14, and two eigenvalues that are told apart by [`EQUAL`] leave more than
-/// 1e-9.
+/// rounding leaves 1e-16 to 1e-14, and two eigenvalues that are told apart by [`EQUAL`] leave more than 1e-9.
 pub const NULL: f64 = 1e-11;
 
 /// Entries below this times the largest are rounding errors of zeros and carry no dependence: a few rounding
@@ -217,9 +216,9 @@ pub(crate) fn order(a: Complex<f64>, b: Complex<f64>) -> std::cmp::Ordering {
         .then(b.1.total_cmp(&a.1))
 }
 
-/// Merges values that are linked by chains of steps up to `radius` into their means. A real matrix's
-/// clusters are symmetric about the real axis or come in conjugate pairs, so that a mean that should be
-/// real is: its imaginary part is rounding.
+/// Merges values that are linked by chains of steps up to `radius` into their means. A real matrix's clusters
+/// are symmetric about the real axis or come in conjugate pairs, so that a mean that should be real is: its
+/// imaginary part is rounding.
 fn clusters(values: Vec<Complex<f64>>, radius: f64) -> Vec<BlockEigenvalue> {
     let linked = strong_components(values.len(), |i, j| distance(values[i], values[j]) <= radius);
     linked
@@ -322,8 +321,8 @@ mod tests {
         });
         let block = Block::Real(product(&product(&t, &jordan), &inverse));
         let scattered = block.eigenvalues().unwrap();
-        // index 3 is scattered by eps^(1/3), which is beyond what EQUAL merges: reported as found, never as
-        // a wrong vector
+        // index 3 is scattered by eps^(1/3), which is beyond what EQUAL merges: reported as found, never as a
+        // wrong vector
         assert!(scattered.iter().all(|e| distance(e.value, (0.5, 0.0)) < 1e-2));
         let space = block.eigenspace((0.5, 0.0), 0).unwrap();
         assert_eq!((space.right.len(), space.left.len()), (1, 1));

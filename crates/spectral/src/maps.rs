@@ -1,11 +1,11 @@
 //! Natural configuration, characteristic map and second-order maps.
 //!
-//! The mode of the subdominant eigenvalue lambda in Fourier index 1, read as points of the complex plane,
-//! is the natural configuration; the surface of which it is the net is the characteristic map (Reif 1995),
+//! The mode of the subdominant eigenvalue lambda in Fourier index 1, read as points of the complex plane, is
+//! the natural configuration; the surface of which it is the net is the characteristic map (Reif 1995),
 //! determined by its patches on the [`Annulus`]. The modes of the subsubdominant eigenvalue mu as a third
 //! coordinate z make it a second-order map: the cup (index 0) and two saddles (index 2 and N-2). At N = 3
-//! index 2 is the conjugate of index 1 and mu its second eigenvalue; at N = 4 both saddles lie in block 2,
-//! an edge mode (`E_i = (-1)^i, F_i = 0`) and a face mode.
+//! index 2 is the conjugate of index 1 and mu its second eigenvalue; at N = 4 both saddles lie in block 2, an
+//! edge mode (`E_i = (-1)^i, F_i = 0`) and a face mode.
 //!
 //! All maps here have `E_0 = 1` (the cup too, the face mode `F_0 = 1`): other normalisations are factors. z
 //! as a function of (x, y) has the derivatives of [`Graph`], by the chain rule through the Jacobian.
@@ -184,8 +184,7 @@ mod tests {
         let maps = Maps::new(&catmull_clark(4).unwrap()).unwrap();
         assert!((maps.lambda - 0.5).abs() < 1e-15);
         for (patch, u, v) in points(&maps.annulus) {
-            // x = a + u in sector 0: the parametrisation is the identity there, and every Hessian is
-            // constant
+            // x = a + u in sector 0: the parametrisation is the identity there, and every Hessian is constant
             for (which, reference) in (0..3).map(|which| {
                 let at = maps.annulus.patches(0).next().unwrap();
                 (which, maps.graph(which, at, 0.5, 0.5).hessian)

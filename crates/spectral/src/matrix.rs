@@ -219,8 +219,8 @@ mod tests {
         (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
     }
 
-    /// `sum_j M[row of sector 0, column of sector j] w^{k j}`: the block by the discrete Fourier transform
-    /// of the matrix.
+    /// `sum_j M[row of sector 0, column of sector j] w^{k j}`: the block by the discrete Fourier transform of
+    /// the matrix.
     fn transformed(matrix: &Matrix<f64>, numbering: Numbering, index: usize) -> Matrix<Complex<f64>> {
         let n = numbering.fan.sectors();
         let net = FourierNet::<f64>::new(numbering, index, false).unwrap();

@@ -4,8 +4,7 @@
 //! vector. Read as points of the plane it is mapped to itself times lambda by refinement (Reif 1995). It is
 //! determined up to a complex factor, that is up to rotation and size:
 //!
-//! * [`LocalSystem::natural`] has the first point of ring 1 at (1, 0): `E_0` around a vertex, with the
-//! centre
+//! * [`LocalSystem::natural`] has the first point of ring 1 at (1, 0): `E_0` around a vertex, with the centre
 //!   at the origin; the corner of sector 0 of the face around a face.
 //! * [`NaturalMode`] is one sector's part from block 1 alone, in whatever scale its eigenvector comes. It is
 //!   for ratios, which do not depend on the factor, and where many schemes are looked at.
@@ -27,9 +26,8 @@ impl LocalSystem {
     /// ring 1 at (1, 0).
     ///
     /// # Errors
-    /// [`Error::NotSymmetric`] for rules that differ from sector to sector; [`Error::Scaling`] if block 1
-    /// has no real eigenvalue, [`Error::Multiplicity`] or [`Error::Defective`] if that has not one
-    /// eigenvector.
+    /// [`Error::NotSymmetric`] for rules that differ from sector to sector; [`Error::Scaling`] if block 1 has
+    /// no real eigenvalue, [`Error::Multiplicity`] or [`Error::Defective`] if that has not one eigenvector.
     pub fn natural(&self) -> Result<Natural, Error> {
         if !self.symmetric() {
             return Err(Error::NotSymmetric);

@@ -26,8 +26,8 @@ pub(crate) struct Repeated {
     pub value: Complex<f64>,
     /// How often it is a root of the characteristic polynomial.
     pub algebraic: usize,
-    /// How many independent eigenvectors it has: at least one, and at most `algebraic`, out of which they
-    /// are counted.
+    /// How many independent eigenvectors it has: at least one, and at most `algebraic`, out of which they are
+    /// counted.
     pub geometric: usize,
 }
 

@@ -1,5 +1,5 @@
-//! How many rings an analysis needs: the smallest closed set, or one more where that hides an eigenvalue
-//! that matters.
+//! How many rings an analysis needs: the smallest closed set, or one more where that hides an eigenvalue that
+//! matters.
 //!
 //! Refined points of a closed set of R rings read these rings only, so the matrix of more rings is block
 //! triangular: its eigenvalues are those of R rings and those of the diagonal blocks of the rings outside.

@@ -59,8 +59,7 @@ const MAX_LIFTED: usize = 40;
 
 impl LocalSystem {
     /// All eigenvalues with their algebraic and geometric multiplicities, as far as a matrix of doubles
-    /// tells: what its rounding could make of one eigenvalue is one. [`LocalSystem::spectrum_of`] knows
-    /// more.
+    /// tells: what its rounding could make of one eigenvalue is one. [`LocalSystem::spectrum_of`] knows more.
     ///
     /// # Errors
     /// [`Error::Decomposition`] if an entry is not finite or an iteration fails.
@@ -68,8 +67,8 @@ impl LocalSystem {
         self.listed(|_, block| multiplicities(&block.lifted(), block, Precision::Double))
     }
 
-    /// All eigenvalues with their algebraic and geometric multiplicities, from the rules of the same level
-    /// in [`Extended`] numbers.
+    /// All eigenvalues with their algebraic and geometric multiplicities, from the rules of the same level in
+    /// [`Extended`] numbers.
     ///
     /// # Errors
     /// As [`LocalSystem::spectrum`]; those of [`fourier_blocks`](crate::fourier_blocks).
@@ -180,8 +179,8 @@ impl Spectrum {
             .find(|e| e.modulus() < subdominant.modulus() * (1.0 - SAME))
     }
 
-    /// `mu / lambda^2`: 1 for bounded curvature without a flat spot. Moduli are taken; `None` where lambda
-    /// is 0 or a [`stray`](Spectrum::stray) one.
+    /// `mu / lambda^2`: 1 for bounded curvature without a flat spot. Moduli are taken; `None` where lambda is
+    /// 0 or a [`stray`](Spectrum::stray) one.
     pub fn curvature_ratio(&self) -> Option<f64> {
         if self.stray().is_some() {
             return None;

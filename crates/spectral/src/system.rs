@@ -31,8 +31,8 @@ pub struct Mode {
     /// The dual left eigenvector: weights of the points, in the same order.
     pub functional: Vec<Complex<f64>>,
     /// `|l . r|` for vectors of unit length in the unknowns of the block, between 0 and 1: the reciprocal
-    /// condition number of the eigenvalue. Perturbing the matrix by `eps` moves the eigenvalue by up to
-    /// `eps` over this, and near a resonance it falls with the distance of the two eigenvalues.
+    /// condition number of the eigenvalue. Perturbing the matrix by `eps` moves the eigenvalue by up to `eps`
+    /// over this, and near a resonance it falls with the distance of the two eigenvalues.
     pub product: f64,
 }
 
@@ -294,10 +294,10 @@ impl LocalSystem {
         ])
     }
 
-    /// The functionals of the pair of eigenvalues after the dominant one, of a system without Fourier
-    /// blocks: left eigenvectors dual to the right ones of a double eigenvalue, or of two different real
-    /// ones, the larger first. Each is scaled so that its right eigenvector has the value 1 at the first
-    /// point where it does not vanish.
+    /// The functionals of the pair of eigenvalues after the dominant one, of a system without Fourier blocks:
+    /// left eigenvectors dual to the right ones of a double eigenvalue, or of two different real ones, the
+    /// larger first. Each is scaled so that its right eigenvector has the value 1 at the first point where it
+    /// does not vanish.
     ///
     /// # Errors
     /// [`Error::Pair`] unless the two are real, have two eigenvectors and are larger in modulus than all

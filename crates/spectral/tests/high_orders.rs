@@ -1,7 +1,7 @@
-//! **Claim**: eigenvalues and multiplicities of Stam's scheme of orders 11 to 32 are those of arithmetic
-//! with 200 digits, the small ones and those that agree to 18 digits too. **Oracle**:
-//! `tests/data/high_orders.py`, which folds, refines and smooths points in fixed-point numbers of 800 bits
-//! by code of its own and has Arb find the eigenvalues; values within 1e-40 are one there.
+//! **Claim**: eigenvalues and multiplicities of Stam's scheme of orders 11 to 32 are those of arithmetic with
+//! 200 digits, the small ones and those that agree to 18 digits too. **Oracle**: `tests/data/high_orders.py`,
+//! which folds, refines and smooths points in fixed-point numbers of 800 bits by code of its own and has Arb
+//! find the eigenvalues; values within 1e-40 are one there.
 
 use eigenring_scheme::families::tension;
 use eigenring_spectral::{Eigenvalue, Extended, LocalSystem};

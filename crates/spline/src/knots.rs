@@ -4,9 +4,9 @@
 //! `0/0 = 0`:
 //!
 //! ```text
-//! N_{i,0}(u) = 1 on [u_i, u_{i+1}), else 0 N_{i,p}(u) = (u - u_i)/(u_{i+p} - u_i) N_{i,p-1}(u) +
-//! (u_{i+p+1} - u)/(u_{i+p+1} - u_{i+1}) N_{i+1,p-1}(u) N'_{i,p}   = p [ N_{i,p-1}/(u_{i+p} - u_i) -
-//! N_{i+1,p-1}/(u_{i+p+1} - u_{i+1}) ]
+//! N_{i,0}(u) = 1 on [u_i, u_{i+1}), else 0
+//! N_{i,p}(u) = (u - u_i)/(u_{i+p} - u_i) N_{i,p-1}(u) + (u_{i+p+1} - u)/(u_{i+p+1} - u_{i+1}) N_{i+1,p-1}(u)
+//! N'_{i,p}   = p [ N_{i,p-1}/(u_{i+p} - u_i) - N_{i+1,p-1}/(u_{i+p+1} - u_{i+1}) ]
 //! ```
 //!
 //! (Piegl and Tiller, *The NURBS Book*, 1997, Eqs. 2.5 and 2.7.) The knots are *open*: the end knots have
@@ -312,8 +312,8 @@ mod tests {
 
     #[test]
     fn cubics_are_reproduced_by_their_polar_forms() {
-        // f(u) = u^3 - 2u^2 + 3 has the blossom u v w - 2 (uv + vw + wu)/3 + 3; coefficient i is its value
-        // at the knots inside
+        // f(u) = u^3 - 2u^2 + 3 has the blossom u v w - 2 (uv + vw + wu)/3 + 3; coefficient i is its value at
+        // the knots inside
         let knots = kinked().knots().clone();
         let blossom = |u: f64, v: f64, w: f64| u * v * w - 2.0 * (u * v + v * w + w * u) / 3.0 + 3.0;
         let coefficients = (0..knots.dimension())

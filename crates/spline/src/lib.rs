@@ -5,9 +5,9 @@
 //! * **Numbers.** A [`Scalar`] is a field with square roots and cosines of rational turns, without an order,
 //!   so that one formula runs on doubles, on [`Dual`]s for derivatives, and on any type that encloses or
 //!   computes exactly. [`Same`] says what is known to be equal.
-//! * **Functions of one variable** on any open knots: [`Knots`] are the space, a [`Spline`] has
-//! coefficients. * **Uniform B-splines** on one knot interval and their Bernstein form: [`uniform`]. *
-//! **Curves and grids** of any order and tension, refined, evaluated exactly and made to reproduce conics:
+//! * **Functions of one variable** on any open knots: [`Knots`] are the space, a [`Spline`] has coefficients.
+//! * **Uniform B-splines** on one knot interval and their Bernstein form: [`uniform`].
+//! * **Curves and grids** of any order and tension, refined, evaluated exactly and made to reproduce conics:
 //!   [`curve`].
 //! * **Patches**: a [`TensorPatch`] of uniform B-splines with its [`Jet`]s, and a [`bernstein::Polynomial`],
 //!   which is cut into quarters, multiplied and bounded.

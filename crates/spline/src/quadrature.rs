@@ -1,12 +1,12 @@
 //! Gauss-Legendre quadrature on the unit interval.
 //!
 //! The nodes of the rule with n points are the zeros of the Legendre polynomial `P_n`, moved from `[-1, 1]`
-//! to `[0, 1]`. With `x` a zero, its weight there is `1 / ((1 - x^2) P_n'(x)^2)` (Abramowitz and Stegun
-//! 1964, 25.4.29). The rule is exact for polynomials of degree `2n - 1`.
+//! to `[0, 1]`. With `x` a zero, its weight there is `1 / ((1 - x^2) P_n'(x)^2)` (Abramowitz and Stegun 1964,
+//! 25.4.29). The rule is exact for polynomials of degree `2n - 1`.
 //!
-//! Both numbers are found in doubles, to a few units of the last place; near the ends the weights lose
-//! digits like `n^2`. The tabulated optima of the lambda-scheme were found with these very nodes, and flat
-//! minima move by more than their rounding.
+//! Both numbers are found in doubles, to a few units of the last place; near the ends the weights lose digits
+//! like `n^2`. The tabulated optima of the lambda-scheme were found with these very nodes, and flat minima
+//! move by more than their rounding.
 
 use std::f64::consts::PI;
 

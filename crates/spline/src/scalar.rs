@@ -1,11 +1,11 @@
 //! The number type of rules and closed forms.
 //!
-//! A scheme's weights, its small solves and its patches are written once, over [`Scalar`], and then run
-//! with `f64` (numerics), [`Dual`](crate::Dual) (exact derivatives), exact numbers (equalities), intervals
-//! (proofs) or combinations. Scalars are deliberately **not ordered**: an interval cannot always say which
-//! of two numbers is larger, so every branch is decided in `f64` by the caller and passed in. What they can
-//! say is whether two of them are known to be [the same](Same), which is what symmetry and the degree of
-//! the regular part are derived from.
+//! A scheme's weights, its small solves and its patches are written once, over [`Scalar`], and then run with
+//! `f64` (numerics), [`Dual`](crate::Dual) (exact derivatives), exact numbers (equalities), intervals
+//! (proofs) or combinations. Scalars are deliberately **not ordered**: an interval cannot always say which of
+//! two numbers is larger, so every branch is decided in `f64` by the caller and passed in. What they can say
+//! is whether two of them are known to be [the same](Same), which is what symmetry and the degree of the
+//! regular part are derived from.
 
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
@@ -14,8 +14,8 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A weight that can tell whether another one is known to be the same number.
 pub trait Same: Clone {
-    /// Whether both are known to be the same number. False says nothing: two enclosures of one number that
-    /// is not representable are not known to be the same.
+    /// Whether both are known to be the same number. False says nothing: two enclosures of one number that is
+    /// not representable are not known to be the same.
     fn same(&self, other: &Self) -> bool;
 }
 

@@ -1,10 +1,10 @@
 //! Uniform B-splines on one knot interval, and their Bernstein form.
 //!
 //! On the interval `[0, 1]` between two knots a uniform spline of degree d is a combination of d+1
-//! consecutive control values `c_0 .. c_d`. The basis follows from `N_0 = 1` by `d N_j^d(t) = (t + d - j)
-//! N_{j-1}^{d-1} + (j + 1 - t) N_j^{d-1}` with j = 0 for the basis function that ends first; derivatives
-//! are differences of lower degree. The Bernstein coefficient `b_i` is the blossom at `0^(d-i) 1^i`
-//! (Ramshaw 1989), an affine combination with rational weights.
+//! consecutive control values `c_0 .. c_d`. The basis follows from `N_0 = 1` by
+//! `d N_j^d(t) = (t + d - j) N_{j-1}^{d-1} + (j + 1 - t) N_j^{d-1}` with j = 0 for the basis function that
+//! ends first; derivatives are differences of lower degree. The Bernstein coefficient `b_i` is the blossom at
+//! `0^(d-i) 1^i` (Ramshaw 1989), an affine combination with rational weights.
 
 use crate::Scalar;
 

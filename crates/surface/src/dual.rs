@@ -63,8 +63,8 @@ impl CellNet {
     /// The net after a level, 0 for the first.
     ///
     /// # Errors
-    /// [`Error::NoRule`] for darts, cusps and creases that are not sharp for ever, and for passes that are
-    /// no corner cutting with averaging.
+    /// [`Error::NoRule`] for darts, cusps and creases that are not sharp for ever, and for passes that are no
+    /// corner cutting with averaging.
     pub fn refined(&self, rules: &Rules, level: usize) -> Result<CellNet, Error> {
         let topology = Topology::unchecked(&self.mesh);
         let mut builder = Builder {

@@ -1,10 +1,10 @@
 //! Fine levels of corner cutting as blocks: order 3 on closed meshes without creases.
 //!
-//! After the first level every corner `h` of a face of the control mesh is a point, and from then on a
-//! block of `n x n` points, `n = 1, 2, 4, ..`: from the face's vertex v at (0, 0) along its edge to (1, 0),
-//! the middle of the face at (1, 1). Each point becomes four by the scheme's [`Line`], and reads its
-//! neighbours in the block or across its sides; only the points next to a vertex or face that is not of
-//! size 4 have rows of their own.
+//! After the first level every corner `h` of a face of the control mesh is a point, and from then on a block
+//! of `n x n` points, `n = 1, 2, 4, ..`: from the face's vertex v at (0, 0) along its edge to (1, 0), the
+//! middle of the face at (1, 1). Each point becomes four by the scheme's [`Line`], and reads its neighbours
+//! in the block or across its sides; only the points next to a vertex or face that is not of size 4 have rows
+//! of their own.
 
 use crate::rules::Rules;
 use crate::workers::Workers;

@@ -28,8 +28,8 @@ pub struct Facts {
     pub boundary_valences: BTreeMap<usize, usize>,
     /// The numbers of creases and corners, of sharpness that ends and that does not.
     pub features: FeatureCounts,
-    /// Catmull-Clark levels until no face touches two irregular centres: inner vertices of other valence
-    /// than 4, and middles of faces that are no quads.
+    /// Catmull-Clark levels until no face touches two irregular centres: inner vertices of other valence than
+    /// 4, and middles of faces that are no quads.
     pub isolation: usize,
 }
 

@@ -1,11 +1,11 @@
 //! Lines that show the quality of a surface: highlight lines, reflection lines, isophotes.
 //!
 //! With a family of parallel linear lights `A + c C + s B` (B the direction of the lights, C their spacing)
-//! the line from X in direction D meets the light `c = (B x D).(X - A) / ((B x D).C)`; stripes are level
-//! sets of c. With D the normal they are highlight lines (Beier and Chen, Computer-Aided Design 26(4),
-//! 1994), with the view reflected in the normal reflection lines (Klass, Computer-Aided Design 12(2),
-//! 1980). Isophotes are level sets of the brightness n.L (Poeschl, Computer Aided Geometric Design 1(2),
-//! 1984). On a surface of class G^k such lines are of class k-1: a jump of curvature is a kink.
+//! the line from X in direction D meets the light `c = (B x D).(X - A) / ((B x D).C)`; stripes are level sets
+//! of c. With D the normal they are highlight lines (Beier and Chen, Computer-Aided Design 26(4), 1994), with
+//! the view reflected in the normal reflection lines (Klass, Computer-Aided Design 12(2), 1980). Isophotes
+//! are level sets of the brightness n.L (Poeschl, Computer Aided Geometric Design 1(2), 1984). On a surface
+//! of class G^k such lines are of class k-1: a jump of curvature is a kink.
 
 use nalgebra::{Point3, Vector3};
 

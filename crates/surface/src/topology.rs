@@ -1,9 +1,9 @@
 //! Which faces meet where: half-edges of a mesh without defects.
 //!
-//! The half-edge `h` is the corner of that number, counted through all faces: it starts at the corner's
-//! point and leads to the face's next one, with the face on its left. Around a vertex, half-edges that
-//! leave it are the spokes of [`eigenring_scheme`]'s fans, counter-clockwise; on a boundary the first one
-//! has nothing on its right, and the last spoke is a half-edge that arrives, turned round.
+//! The half-edge `h` is the corner of that number, counted through all faces: it starts at the corner's point
+//! and leads to the face's next one, with the face on its left. Around a vertex, half-edges that leave it are
+//! the spokes of [`eigenring_scheme`]'s fans, counter-clockwise; on a boundary the first one has nothing on
+//! its right, and the last spoke is a half-edge that arrives, turned round.
 
 use crate::{Defect, Mesh, features::edge};
 

@@ -2,8 +2,8 @@
 
 use nalgebra::Point3;
 
-/// Runs the same work on parts of an array, in any order and on any number of threads: parts do not depend
-/// on each other, so that the result has the same bits. This crate has no threads of its own.
+/// Runs the same work on parts of an array, in any order and on any number of threads: parts do not depend on
+/// each other, so that the result has the same bits. This crate has no threads of its own.
 pub trait Workers: Sync {
     /// Work on parts of points; the work is told the number of its part.
     fn points(&self, parts: Vec<&mut [Point3<f64>]>, work: &(dyn Fn(usize, &mut [Point3<f64>]) + Sync));

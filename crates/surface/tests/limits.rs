@@ -224,8 +224,8 @@ fn stencils_reproduce_points_and_regular_parts_are_splines() {
     }
 }
 
-/// Beside a centre, at any depth: far in, the Gauss curvature grows by one factor a level. The next modes
-/// die out like 0.914^m at worst (N = 3: eigenvalues .1667 and .1524), so that what is left at depth 300 is
+/// Beside a centre, at any depth: far in, the Gauss curvature grows by one factor a level. The next modes die
+/// out like 0.914^m at worst (N = 3: eigenvalues .1667 and .1524), so that what is left at depth 300 is
 /// rounding, which plain products of matrices lose all digits to from depth 26 on.
 #[test]
 fn curvature_keeps_its_digits_at_any_depth() {

@@ -1,8 +1,8 @@
 //! Refined meshes against those of other programs.
 //!
 //! Catmull-Clark with creases, corners, semi-sharp edges, boundaries and faces of any size: refinements by
-//! OpenSubdiv (Pixar, regression suite; 9 digits, sharpness in 32 bits). Doo-Sabin with its original
-//! weights: CGAL 5.5, whose open meshes shrink. Tension scheme of all orders with features: an independent
+//! OpenSubdiv (Pixar, regression suite; 9 digits, sharpness in 32 bits). Doo-Sabin with its original weights:
+//! CGAL 5.5, whose open meshes shrink. Tension scheme of all orders with features: an independent
 //! implementation. Points are matched as sets, counts and sums over faces beside them.
 
 use crate::common::{centroid_sums, distance, json, load, mesh, own, points, rules, shared};

@@ -86,12 +86,12 @@ const CONVERGED: f64 = 1e-11;
 /// Iterations of Brent's method at most; about 20 are usual.
 const BRENT: u64 = 60;
 
-/// The minima over lambda in the range of the samples, which ascend in lambda and were computed with the
-/// same options.
+/// The minima over lambda in the range of the samples, which ascend in lambda and were computed with the same
+/// options.
 ///
 /// # Errors
-/// [`Error::TooFew`] for less than three samples, [`Error::Samples`] for samples that do not belong
-/// together, and any [`Error`] about a single lambda.
+/// [`Error::TooFew`] for less than three samples, [`Error::Samples`] for samples that do not belong together,
+/// and any [`Error`] about a single lambda.
 pub fn global(samples: &[Sample], options: &Options) -> Result<Global, Error> {
     check(samples)?;
     let [first, .., last] = samples else {

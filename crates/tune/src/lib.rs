@@ -3,8 +3,8 @@
 //! From the inside out: [`objective`] says how good the stencil (f2, f3) at one lambda is, [`search`] finds
 //! its minima over the feasible domain, [`sweep`] does so at many lambdas and connects the minima to a
 //! branch, [`global`] finds the best lambda, [`spline`] fits the spline stencils, and [`study`] is all of
-//! this for one valence. [`quality`] measures any scheme. The output of tuning is an ordinary scheme:
-//! nothing else needs to know how its stencils were found.
+//! this for one valence. [`quality`] measures any scheme. The output of tuning is an ordinary scheme: nothing
+//! else needs to know how its stencils were found.
 //!
 //! The stencils of one lambda, as a sweep finds them at each of its samples:
 //!

@@ -7,8 +7,8 @@
 //! series the Hessian is `s_i^m H` and the area `lambda^(2m)`, so a part exists only while `lambda s_i < 1`
 //! (the second derivatives are square integrable).
 //!
-//! All schemes are measured on the annulus `[2, 4]` and normalised by unit Euclidean norm over the rings
-//! that carry it (five rings for bicubic ones), as in the tuning.
+//! All schemes are measured on the annulus `[2, 4]` and normalised by unit Euclidean norm over the rings that
+//! carry it (five rings for bicubic ones), as in the tuning.
 
 use eigenring_scheme::{Lattice, Scheme, Site};
 use eigenring_spectral::{Annulus, Error, Graph, Maps};

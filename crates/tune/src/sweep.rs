@@ -1,10 +1,9 @@
 //! Stencils tuned at many lambdas, and the branch through them.
 //!
-//! Ma, Wang and Ma (2023, section 4.1) tune at 100 values of lambda a valence, in two uniform parts that
-//! meet at `lambda_l` ([`Range`]). Work comes in two phases.
+//! Ma, Wang and Ma (2023, section 4.1) tune at 100 values of lambda a valence, in two uniform parts that meet
+//! at `lambda_l` ([`Range`]). Work comes in two phases.
 //!
-//! 1. [`sample`] finds all local minima at one lambda. It depends on nothing else, so samples can be
-//! computed
+//! 1. [`sample`] finds all local minima at one lambda. It depends on nothing else, so samples can be computed
 //!    in any order, in parallel, and stored.
 //! 2. [`branch()`] connects them. The lowest minimum may jump from one lambda to the next (at N = 3 between
 //!    two basins near 0.446 and 0.656), and no continuous spline can follow it; the branch starts at the
@@ -218,9 +217,9 @@ impl Default for Range {
 }
 
 impl Range {
-    /// The sample values, ascending: `start + i (lambda_l-start)/below` for i = 0..=below, then `lambda_l +
-    /// i (end-lambda_l)/above` for i = 1..=above. If `lambda_l` is not inside, as for N > 23 with the
-    /// default range, as many in equal steps.
+    /// The sample values, ascending: `start + i (lambda_l-start)/below` for i = 0..=below, then `lambda_l + i
+    /// (end-lambda_l)/above` for i = 1..=above. If `lambda_l` is not inside, as for N > 23 with the default
+    /// range, as many in equal steps.
     ///
     /// # Errors
     /// [`Error::Range`], and [`Error::Scheme`] for a valence below 3.

@@ -1,10 +1,9 @@
 //! Curves that their control points give exactly, as input for everybody who has no file of points.
 //!
-//! With `w = 2 arccos u0` (`2 arcosh u0`) a curve of order k contains `1, t, .., t^(k-3)` and cosine and
-//! sine (hyperbolic ones) of `w t`, and its control points follow in closed form (Fang, Ma and Wang, *A
-//! generalized surface subdivision scheme of arbitrary order with a tension parameter*;
-//! `Curve::reproduce`). With x as the parameter from the middle of the domain, T as that of the published
-//! figure:
+//! With `w = 2 arccos u0` (`2 arcosh u0`) a curve of order k contains `1, t, .., t^(k-3)` and cosine and sine
+//! (hyperbolic ones) of `w t`, and its control points follow in closed form (Fang, Ma and Wang, *A
+//! generalized surface subdivision scheme of arbitrary order with a tension parameter*; `Curve::reproduce`).
+//! With x as the parameter from the middle of the domain, T as that of the published figure:
 //!
 //! ```text
 //! circle     (cos wt, sin wt)            closed, n points and u0 = cos(pi/n)

@@ -17,8 +17,8 @@ use crate::table::{Record, Table};
 use eigenring_figure::{Figure, Width};
 use eigenring_spline::curve::{Curve, Ends, Grid};
 
-/// The most points that a table of one level or of the limit holds: beyond, it would be hundreds of
-/// megabytes of text.
+/// The most points that a table of one level or of the limit holds: beyond, it would be hundreds of megabytes
+/// of text.
 const MOST_POINTS: usize = 1 << 20;
 
 /// The fewest pieces of a drawn limit: then they are too short for corners to be seen.

@@ -1,7 +1,7 @@
 //! A curve as a picture: control polygon, levels, limit.
 //!
-//! A plane curve is drawn as it is, one coordinate as a graph over the parameter, a spatial curve in plan
-//! and elevation: x, y and x, z. Scales are equal in both directions unless that would leave a thread.
+//! A plane curve is drawn as it is, one coordinate as a graph over the parameter, a spatial curve in plan and
+//! elevation: x, y and x, z. Scales are equal in both directions unless that would leave a thread.
 
 use super::levels::coordinates;
 use crate::error::Error;

@@ -4,8 +4,8 @@
 use crate::error::Error;
 use crate::numbers::{Called, read};
 
-/// The points in a file: at least one coordinate each, all as many, all finite. How many points are needed
-/// is for the curve to say.
+/// The points in a file: at least one coordinate each, all as many, all finite. How many points are needed is
+/// for the curve to say.
 ///
 /// # Errors
 /// [`Error::Content`] with line and column, counted from 1.

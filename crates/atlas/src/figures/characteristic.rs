@@ -1,9 +1,9 @@
 //! Characteristic maps: their patches with the Jacobian determinant as colour.
 //!
-//! The map is regular where the Jacobian is positive; a scheme is C1 at the centre if the map is regular
-//! and injective (Reif 1995). Annuli of patches shrink by lambda, and the Jacobian changes by `4 lambda^2`
-//! from one to the next, so that it fades or grows toward the centre unless lambda = 1/2. The sheets (see
-//! `sheet`) say how values are scaled. Rows are schemes, columns valences.
+//! The map is regular where the Jacobian is positive; a scheme is C1 at the centre if the map is regular and
+//! injective (Reif 1995). Annuli of patches shrink by lambda, and the Jacobian changes by `4 lambda^2` from
+//! one to the next, so that it fades or grows toward the centre unless lambda = 1/2. The sheets (see `sheet`)
+//! say how values are scaled. Rows are schemes, columns valences.
 //!
 //! At large valences lambda is large and patches are narrow: annuli crowd at the rim. There radii are
 //! drawn by their logarithms, so that all annuli are equally wide, and a few of them stand for the rest.

@@ -37,8 +37,8 @@ fn title_width(title: &str) -> f64 {
 }
 
 impl Grid {
-    /// A grid of panels no narrower than given on a page of this width, of which `beside` millimetres are
-    /// for colour bars.
+    /// A grid of panels no narrower than given on a page of this width, of which `beside` millimetres are for
+    /// colour bars.
     pub fn new(rows: usize, columns: usize, width: Width, beside: f64, narrowest: f64) -> Self {
         let free = width.millimetres() - beside - 2.0;
         let abreast = columns.clamp(1, ((free / narrowest) as usize).max(1));

@@ -102,8 +102,8 @@ pub struct Entry {
     pub valences: &'static [usize],
     /// The default lambdas; empty if it takes none.
     pub lambdas: &'static [f64],
-    /// The default schemes; `None` if it takes none, empty for its own choice. Lambdas then stand for
-    /// members of the lambda-scheme.
+    /// The default schemes; `None` if it takes none, empty for its own choice. Lambdas then stand for members
+    /// of the lambda-scheme.
     pub schemes: Option<&'static [&'static str]>,
     /// The default range of the colour scale, if there is one.
     pub colours: Option<(f64, f64)>,

@@ -81,8 +81,8 @@ impl Net {
     }
 
     /// The net as it can be read, and what a title adds if that is not the net itself: where many sectors
-    /// crowd around the centre, radii become `log(1 + r/r_1)`, with r_1 the smallest of ring 1, in
-    /// proportion to the rim; edges join their points as before.
+    /// crowd around the centre, radii become `log(1 + r/r_1)`, with r_1 the smallest of ring 1, in proportion
+    /// to the rim; edges join their points as before.
     pub fn readable(&self) -> (Net, &'static str) {
         let around = |ring: usize| self.points.iter().filter(move |point| point.0 == ring);
         let radii = around(1).map(|(_, [x, y])| x.hypot(*y));

@@ -1,11 +1,11 @@
-//! Tables of sampled maps: one sector of the outer annulus; other sectors follow by rotation, other annuli
-//! by the factors.
+//! Tables of sampled maps: one sector of the outer annulus; other sectors follow by rotation, other annuli by
+//! the factors.
 
 use super::sheet::{Point, Sheet};
 use crate::table::{Cell, Table};
 
-/// Columns that tell maps apart, the parameters u along a sector's own and v along the next spoke, the
-/// point, and columns of values.
+/// Columns that tell maps apart, the parameters u along a sector's own and v along the next spoke, the point,
+/// and columns of values.
 pub fn table(keys: &[&str], values: &[&str]) -> Table {
     let columns = keys.iter().chain(&["u", "v", "x", "y"]).chain(values);
     Table::new(columns.copied())

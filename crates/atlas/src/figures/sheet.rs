@@ -9,9 +9,9 @@
 //! * the Hessian of z over the plane has the factor `s = mu / lambda^2`, and `K* = z_xx z_yy - z_xy^2`, the
 //!   numerator of the Gauss curvature (Ma, Wang and Ma 2023, Eq. 14), has `s^2`.
 //!
-//! Values are given relative to their mean over the first annulus (over the parameters for the Jacobian,
-//! over the area and of `|K*|` for K*): a parametrisation by equal areas has the Jacobian 1, a quadratic
-//! cup has K* = 1 and a quadratic saddle K* = -1.
+//! Values are given relative to their mean over the first annulus (over the parameters for the Jacobian, over
+//! the area and of `|K*|` for K*): a parametrisation by equal areas has the Jacobian 1, a quadratic cup has
+//! K* = 1 and a quadratic saddle K* = -1.
 //!
 //! A patch is a grid of `cells x cells`. An annulus further in has half as many cells along an edge, so that
 //! its outer points are inner points of the annulus around it and no seams open.
@@ -256,8 +256,8 @@ impl Sheet {
         Turn::upright(self.lattice, self.sectors())
     }
 
-    /// The points of sector 0 with their parameters: steps of the net along its own and along the next
-    /// spoke. Points that patches share are given once, those on the rim not at all.
+    /// The points of sector 0 with their parameters: steps of the net along its own and along the next spoke.
+    /// Points that patches share are given once, those on the rim not at all.
     pub fn sector_points(&self) -> impl Iterator<Item = (f64, f64, Point)> + '_ {
         let (cells, width) = (self.cells, self.cells + 1);
         let tiles = self.tiles.iter().filter(|tile| tile.patch.sector == 0);
@@ -359,8 +359,8 @@ impl Sheet {
         })
     }
 
-    /// The boundaries of patches, each once except for the inner boundary, which is the outer one of the
-    /// next annulus.
+    /// The boundaries of patches, each once except for the inner boundary, which is the outer one of the next
+    /// annulus.
     pub fn edges(&self) -> Vec<Vec<Point>> {
         let mut edges = Vec::new();
         for tile in &self.tiles {

@@ -1,8 +1,8 @@
 //! Finding the rotation of a matrix: which permutation of its points leaves it as it is.
 //!
-//! A rotation of order N leaves some points where they are and moves the others in cycles of N, the
-//! *orbits*: point s of an orbit to point s+1. What is tried are the orders in which people number points.
-//! With the fixed points first or last, and m orbits:
+//! A rotation of order N leaves some points where they are and moves the others in cycles of N, the *orbits*:
+//! point s of an orbit to point s+1. What is tried are the orders in which people number points. With the
+//! fixed points first or last, and m orbits:
 //!
 //! * by sector: the m points of sector 0, of sector 1, ..;
 //! * by orbit: the N points of orbit 0 (all edge neighbours), of orbit 1 (all face neighbours), ..;

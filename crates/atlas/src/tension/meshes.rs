@@ -1,10 +1,10 @@
 //! Characteristic meshes: the control points whose coordinates are the eigenvectors of the subdominant pair.
 //!
 //! The mode of the subdominant eigenvalue in block 1, `P_i(a,b) = w^i v(a,b)`, is a complex vector,
-//! determined up to a complex factor; its real and imaginary part are eigenvectors of lambda_1 = lambda_2.
-//! It is scaled so that the first point is at (1, 0): `P_0(1,0)` for even orders, which leads to a mesh
-//! symmetric about the x axis, and the corner `P_0(0,0)` of the face for odd ones, whose diagonal then is
-//! the x axis. The centre of even orders is at (0, 0).
+//! determined up to a complex factor; its real and imaginary part are eigenvectors of lambda_1 = lambda_2. It
+//! is scaled so that the first point is at (1, 0): `P_0(1,0)` for even orders, which leads to a mesh
+//! symmetric about the x axis, and the corner `P_0(0,0)` of the face for odd ones, whose diagonal then is the
+//! x axis. The centre of even orders is at (0, 0).
 
 use super::sweep::Case;
 use crate::error::Error;

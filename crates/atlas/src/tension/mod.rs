@@ -1,12 +1,12 @@
 //! The tables of the generalised tension scheme: `results/tension`.
 //!
-//! Fang, Ma and Wang, *A generalized surface subdivision scheme of arbitrary order with a tension
-//! parameter*, section 5: the eigenvalues of the local matrices over valences, orders, tensions and levels,
-//! their Table 2 and the characteristic meshes of their Fig. 10; all of it for odd orders as well.
+//! Fang, Ma and Wang, *A generalized surface subdivision scheme of arbitrary order with a tension parameter*,
+//! section 5: the eigenvalues of the local matrices over valences, orders, tensions and levels, their Table 2
+//! and the characteristic meshes of their Fig. 10; all of it for odd orders as well.
 //!
-//! **Levels.** Level l refines with `u_l`, where `u_{l+1} = sqrt((1+u_l)/2)`: level 0 is the first
-//! refinement and uses the given `u_0`. The paper lists levels 1 to 10; its Algorithm 3 passes `u_l` to
-//! level l, so these are levels 1 to 10 here.
+//! **Levels.** Level l refines with `u_l`, where `u_{l+1} = sqrt((1+u_l)/2)`: level 0 is the first refinement
+//! and uses the given `u_0`. The paper lists levels 1 to 10; its Algorithm 3 passes `u_l` to level l, so
+//! these are levels 1 to 10 here.
 //!
 //! **Order of the eigenvalues.** By falling modulus, each as often as its multiplicity in the whole local
 //! matrix: 1, lambda_1, lambda_2, lambda_3. The matrices are those of the smallest closed set of rings;

@@ -12,13 +12,13 @@
 //! subdivision on irregular meshes*, Constructive Approximation 16). Of a double value that is neither no
 //! enclosure can tell whether it has a Jordan block.
 //!
-//! **Curvature.** Let p, q be what data have of x and y, and let a further eigenvalue mu have the function
-//! f. Over the tangent plane, with coordinates that shrink like `lambda_1^m` and `lambda_2^m`, the part of
-//! f in the surface has second derivatives `(mu/lambda_1^2)^m f_xx`, `(mu/(lambda_1 lambda_2))^m f_xy`,
-//! `(mu/lambda_2^2)^m f_yy`. All of them tend to 0 if every further |mu| is below `lambda_2^2`: curvature
-//! is bounded. If some real |mu| exceeds `lambda_1^2` and its f is seen, curvature grows: f is C1 on a
-//! connected ring, at a crease cut open, so that it would be linear where all three vanish, and would scale
-//! with 1, lambda_1 or lambda_2. Between the two squares nothing is said.
+//! **Curvature.** Let p, q be what data have of x and y, and let a further eigenvalue mu have the function f.
+//! Over the tangent plane, with coordinates that shrink like `lambda_1^m` and `lambda_2^m`, the part of f in
+//! the surface has second derivatives `(mu/lambda_1^2)^m f_xx`, `(mu/(lambda_1 lambda_2))^m f_xy`,
+//! `(mu/lambda_2^2)^m f_yy`. All of them tend to 0 if every further |mu| is below `lambda_2^2`: curvature is
+//! bounded. If some real |mu| exceeds `lambda_1^2` and its f is seen, curvature grows: f is C1 on a connected
+//! ring, at a crease cut open, so that it would be linear where all three vanish, and would scale with 1,
+//! lambda_1 or lambda_2. Between the two squares nothing is said.
 
 use super::named;
 use crate::linear::Eigenvalue;

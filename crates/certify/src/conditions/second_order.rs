@@ -238,8 +238,7 @@ fn strict(subject: &Subject, spectrum: &Spectrum, lambda: &Subdominant, squares:
                 );
             };
             chosen.push(position);
-            // identities hold for the second-order values only; elsewhere intersect() finds nothing in
-            // common
+            // identities hold for the second-order values only; elsewhere intersect() finds nothing in common
             let value = if entry
                 .value
                 .re

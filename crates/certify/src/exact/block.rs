@@ -74,9 +74,9 @@ impl Net<Exact> for ExactNet<'_> {
     }
 }
 
-/// The exact characteristic polynomial of the block of Fourier index `index` on `rings` rings of a level
-/// that is the same in all sectors. `None` if it has more than [`MAX_SIZE`] unknowns, a weight is not
-/// exact, or the rings are not closed.
+/// The exact characteristic polynomial of the block of Fourier index `index` on `rings` rings of a level that
+/// is the same in all sectors. `None` if it has more than [`MAX_SIZE`] unknowns, a weight is not exact, or
+/// the rings are not closed.
 pub fn block_polynomial(field: &Field, level: &Level<Exact>, rings: usize, index: usize) -> Option<Poly> {
     let numbering = eigenring_spectral::numbering(level, rings);
     let net = ExactNet {
@@ -120,9 +120,9 @@ impl Net<Exact> for SumNet<'_> {
     }
 }
 
-/// The exact sum of the weights of a refined point, less 1, for each of the given points: whether it is
-/// zero, and an enclosure of it. `None` for a point that a weight without exact value takes part in;
-/// nothing at all if the rules cannot be run.
+/// The exact sum of the weights of a refined point, less 1, for each of the given points: whether it is zero,
+/// and an enclosure of it. `None` for a point that a weight without exact value takes part in; nothing at all
+/// if the rules cannot be run.
 pub fn row_sum_defect(field: &Field, level: &Level<Exact>, sites: &[Site]) -> Option<Vec<Option<(bool, Interval)>>> {
     let sums = refine(level, &SumNet { field }, sites).ok()?;
     let defect = |sum: Option<Element>| {

@@ -2,8 +2,8 @@
 //! doubles otherwise.
 //!
 //! The standard library reads a decimal correctly rounded and writes a double with all its digits (a double
-//! has at most 767 significant ones), so comparing the two digit strings says on which side of the double
-//! the written number lies.
+//! has at most 767 significant ones), so comparing the two digit strings says on which side of the double the
+//! written number lies.
 
 use super::Interval;
 use std::cmp::Ordering;

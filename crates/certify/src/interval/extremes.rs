@@ -1,8 +1,8 @@
 //! Interval operations at the ends of the range of doubles, against exact integers.
 //!
-//! Claim: every operation holds every result on members of its operands, and is exact or leaves one double
-//! to each side on points. Oracle: doubles as multiples of `2^-1074`, in big integers, for products
-//! `2^-2148`. Angles and cosines are held against fixed-point series of 400 binary digits.
+//! Claim: every operation holds every result on members of its operands, and is exact or leaves one double to
+//! each side on points. Oracle: doubles as multiples of `2^-1074`, in big integers, for products `2^-2148`.
+//! Angles and cosines are held against fixed-point series of 400 binary digits.
 
 use super::Interval;
 use super::oracle::{Operands, UNIT, between, units};
@@ -28,8 +28,8 @@ fn is_proper(interval: Interval) -> bool {
     lo <= hi && [lo, hi].iter().all(|bound| bound.to_bits() != (-0.0_f64).to_bits())
 }
 
-/// Whether a result on points is exact or between neighbours. Where a residual may underflow it is only
-/// known to lie between the two neighbours of the rounded result.
+/// Whether a result on points is exact or between neighbours. Where a residual may underflow it is only known
+/// to lie between the two neighbours of the rounded result.
 fn is_sharp(interval: Interval, exact: &BigInt, more: u32) -> bool {
     let small = exact.bits() < u64::from(UNIT + more) - 960;
     if interval.is_point() {
@@ -228,8 +228,7 @@ fn what_is_compared_with_infinite_bounds_is_not_certain() {
     }
 }
 
-/// Decimals beside doubles and beside the middles between doubles, where the last digit decides the
-/// rounding.
+/// Decimals beside doubles and beside the middles between doubles, where the last digit decides the rounding.
 #[test]
 fn decimals_hold_what_is_written() {
     let mut operands = Operands::new(5);

@@ -137,8 +137,8 @@ proptest! {
     }
 }
 
-/// `cos(2 pi k / n)` between two rationals: pi by Machin's formula, the cosine by its series, both with
-/// their remainders.
+/// `cos(2 pi k / n)` between two rationals: pi by Machin's formula, the cosine by its series, both with their
+/// remainders.
 fn cosine(k: i64, n: i64) -> (BigRational, BigRational) {
     // everything to 60 decimals; each rounding is accounted for by the margin of 1e-50
     let unit = BigInt::from(10).pow(60);

@@ -1,16 +1,16 @@
 //! Cosines of rational turns, enclosed by integer arithmetic.
 //!
-//! `cos(2 pi k / n)` is folded exactly, in integers, into the first octant: `+-cos x` or `+-sin x` with `0
-//! <= x <= pi / 4` and the turns whose cosine is rational (multiples of a quarter and of a sixth) split
-//! off. What is left is summed as a Taylor series in fixed point with unit `2^-124`, which leaves far more
-//! digits than a double has, so that the bounds returned are adjacent doubles or nearly so.
+//! `cos(2 pi k / n)` is folded exactly, in integers, into the first octant: `+-cos x` or `+-sin x` with `0 <=
+//! x <= pi / 4` and the turns whose cosine is rational (multiples of a quarter and of a sixth) split off.
+//! What is left is summed as a Taylor series in fixed point with unit `2^-124`, which leaves far more digits
+//! than a double has, so that the bounds returned are adjacent doubles or nearly so.
 //!
 //! **Error.** All quantities are at most one. `r = t / (6 n)` and `x = pi r` are rounded down with an error
 //! below one unit and below two units, `x^2` below five (`2 x * 2 + 1` and the truncation). With `e_j` the
-//! error of the term `T_j = T_(j-1) x^2 / c_j`, `c_j >= 2`: `e_j <= (e_(j-1) + 5 + 1) / 2 + 1`, so `e_j <=
-//! 8` for every `j`. As `34! > 2^124`, at most 20 terms are summed before a term is zero in fixed point;
-//! the rest of the alternating series is below the next term, less than 10 units. The total is below `8 *
-//! 21 + 10 < 2^8` units; [`SLACK`] grants four times that.
+//! error of the term `T_j = T_(j-1) x^2 / c_j`, `c_j >= 2`: `e_j <= (e_(j-1) + 5 + 1) / 2 + 1`, so `e_j <= 8`
+//! for every `j`. As `34! > 2^124`, at most 20 terms are summed before a term is zero in fixed point; the
+//! rest of the alternating series is below the next term, less than 10 units. The total is below `8 * 21 + 10
+//! < 2^8` units; [`SLACK`] grants four times that.
 
 use super::Interval;
 

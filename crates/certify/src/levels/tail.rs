@@ -8,10 +8,9 @@
 //! ```
 //!
 //! so that u' lies between u and 1, and `|1 - u|` shrinks at least by the factor `q = 1/(2 (1 + min(u_L,
-//! 1)))` a level, which is nearly 1/4. The weights are rational functions of u without poles above -1. By
-//! the mean value theorem each differs from its limit by at most its largest slope over the tensions left
-//! times `|1 - u|`; rules run on a [`Dual`] of an interval enclose both. With K the largest sum of slopes
-//! of a row,
+//! 1)))` a level, which is nearly 1/4. The weights are rational functions of u without poles above -1. By the
+//! mean value theorem each differs from its limit by at most its largest slope over the tensions left times
+//! `|1 - u|`; rules run on a [`Dual`] of an interval enclose both. With K the largest sum of slopes of a row,
 //!
 //! ```text
 //! |S_l - S|_oo  <=  K |1 - u_l|  <=  K |1 - u_L| q^(l-L)      for all l >= L.

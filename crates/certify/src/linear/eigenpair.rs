@@ -19,11 +19,12 @@ pub struct Eigenpair {
 /// An enclosure of a real eigenpair near the given one, for every member of the matrix; `None` if none was
 /// proven to exist, or the sizes do not fit.
 ///
-/// With `x_p = 1` the unknowns are the other entries of x and the eigenvalue. About an approximation with
-/// the residual F and the derivative `J = [(A - lambda)_{j != p}, -x]` the error e of both is a zero of `F
-/// + J e - e_lambda e_x`, hence, with R an approximate inverse of J, a fixed point of `-R F + (I - R J) e +
-/// R e_lambda e_x`. A box that is mapped into its interior holds one (Brouwer; Rump 2001, *Computational
-/// error bounds for multiple or nearly multiple eigenvalues*).
+/// With `x_p = 1` the unknowns are the other entries of x and the eigenvalue. About an approximation with the
+/// residual F and the derivative `J = [(A - lambda)_{j != p}, -x]` the error e of both is a zero of
+/// `F + J e - e_lambda e_x`, hence, with R an approximate inverse of J, a fixed point of
+/// `-R F + (I - R J) e + R e_lambda e_x`. A box that is mapped into its interior holds one
+/// (Brouwer; Rump 2001, *Computational error
+/// bounds for multiple or nearly multiple eigenvalues*).
 ///
 /// With J(e) the derivative at a point e of the box, `I - R J(e)` is moreover shown to have a norm below 1
 /// there. Then

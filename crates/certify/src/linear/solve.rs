@@ -3,13 +3,13 @@
 use crate::Interval;
 use eigenring_spectral::Matrix;
 
-/// An enclosure of the solutions of `A x = b` for all members of an interval matrix and right side; `None`
-/// if the matrix was not proven regular, or the sizes do not fit.
+/// An enclosure of the solutions of `A x = b` for all members of an interval matrix and right side; `None` if
+/// the matrix was not proven regular, or the sizes do not fit.
 ///
-/// With an approximate inverse R and solution `x~` the error `e = x - x~` is the fixed point of `e = R (b -
-/// A x~) + (I - R A) e`. If the right side maps a box into its interior, the matrix is regular and the
-/// error lies in the box (Rump 1980, *Kleine Fehlerschranken bei Matrixproblemen*, theorem 1.3); the box is
-/// found by iterating with a slight inflation.
+/// With an approximate inverse R and solution `x~` the error `e = x - x~` is the fixed point of `e = R (b - A
+/// x~) + (I - R A) e`. If the right side maps a box into its interior, the matrix is regular and the error
+/// lies in the box (Rump 1980, *Kleine Fehlerschranken bei Matrixproblemen*, theorem 1.3); the box is found
+/// by iterating with a slight inflation.
 pub fn solve(matrix: &Matrix<Interval>, right: &[Interval]) -> Option<Vec<Interval>> {
     let size = matrix.rows();
     if matrix.columns() != size || right.len() != size {
@@ -65,9 +65,9 @@ pub(super) fn defect(inverse: &Matrix<f64>, matrix: &Matrix<Interval>) -> Matrix
     })
 }
 
-/// A box that `map` takes into its interior, starting at `start`; `None` if none is found. Boxes are
-/// inflated by a tenth and an absolute trifle (Rump's epsilon inflation), for at most ten steps, more than
-/// which has never been of use.
+/// A box that `map` takes into its interior, starting at `start`; `None` if none is found. Boxes are inflated
+/// by a tenth and an absolute trifle (Rump's epsilon inflation), for at most ten steps, more than which has
+/// never been of use.
 pub(super) fn fixed_point(start: &[Interval], map: impl Fn(&[Interval]) -> Vec<Interval>) -> Option<Vec<Interval>> {
     const STEPS: usize = 10;
     const SHARPENED: usize = 2;

@@ -8,21 +8,21 @@ use eigenring_spectral::Matrix;
 /// modulus `radius` is never shown to have a smaller one, Jordan block or not: equality with a threshold is
 /// excluded where `radius` is at most the threshold.
 ///
-/// Let `P = L^T L` and `W = r^2 P - B^T P B`, which is symmetric. If W is positive definite, an eigenvector
-/// v of B with eigenvalue z, real or complex, has `0 < v* W v = (r^2 - |z|^2) |L v|^2`, hence `|L v| > 0`
-/// and `|z| < r` (the inequality of Stein 1952; whether L is regular does not matter). W is positive
-/// definite if, for some numbers `d_i > 0`,
+/// Let `P = L^T L` and `W = r^2 P - B^T P B`, which is symmetric. If W is positive definite, an eigenvector v
+/// of B with eigenvalue z, real or complex, has `0 < v* W v = (r^2 - |z|^2) |L v|^2`, hence `|L v| > 0` and
+/// `|z| < r` (the inequality of Stein 1952; whether L is regular does not matter). W is positive definite if,
+/// for some numbers `d_i > 0`,
 ///
 /// ```text
 /// w_ii d_i > sum_{j != i} |w_ij| d_j      for every i:
 /// ```
 ///
 /// the symmetric matrix `d_i w_ij d_j` then has positive diagonal entries that exceed the rest of their row
-/// (Gershgorin). Each side is enclosed with outward rounding, so that what overflows or underflows fails:
-/// the left side is then bounded by zero from below, or the right side by infinity from above.
+/// (Gershgorin). Each side is enclosed with outward rounding, so that what overflows or underflows fails: the
+/// left side is then bounded by zero from below, or the right side by infinity from above.
 ///
-/// Any L may be tried: the one from the solution of `P - B^T P B / r^2 = I` gives a W near `r^2 I`, as far
-/// as doubles can tell.
+/// Any L may be tried: the one from the solution of `P - B^T P B / r^2 = I` gives a W near `r^2 I`, as far as
+/// doubles can tell.
 pub fn radius_below(matrix: &Matrix<Interval>, factor: &Matrix<f64>, radius: f64) -> bool {
     let size = matrix.rows();
     if [matrix.columns(), factor.rows(), factor.columns()] != [size; 3] {

@@ -1,9 +1,8 @@
 //! Evidence made to deceive: whatever it says, nothing false is proven or refuted.
 //!
-//! Claims: a subdivision that is accepted covers its whole once; a map that folds is never proven regular
-//! and a regular one never refuted; a winding number that is claimed is the true one; a curvature of the
-//! wrong sign is never proven and one of the right sign never refuted. Oracle: maps of which the truth is
-//! known.
+//! Claims: a subdivision that is accepted covers its whole once; a map that folds is never proven regular and
+//! a regular one never refuted; a winding number that is claimed is the true one; a curvature of the wrong
+//! sign is never proven and one of the right sign never refuted. Oracle: maps of which the truth is known.
 
 use super::find::Limits;
 use super::tests::{heights, mode, moved, net, widened};
@@ -18,8 +17,7 @@ fn tree(text: &str) -> Subdivision {
     serde_json::from_value(text.into()).expect("any text is read")
 }
 
-/// A text that is a tree, or nearly one or none where it is spoilt: `parts` is the number of pieces of a
-/// cut.
+/// A text that is a tree, or nearly one or none where it is spoilt: `parts` is the number of pieces of a cut.
 fn text(operands: &mut Operands, parts: usize, spoilt: bool) -> String {
     let mut text = String::new();
     let mut open = 1;
@@ -106,8 +104,8 @@ fn what_is_accepted_as_a_subdivision_covers_the_square_once() {
         accepted += 1;
         assert_eq!(walk.cells, cells.len());
         assert!(cells.iter().all(|cell| cell[2] > 0));
-        // squares of one tree are nested or disjoint: with the whole area and no two at one corner they
-        // cover it once
+        // squares of one tree are nested or disjoint: with the whole area and no two at one corner they cover
+        // it once
         assert_eq!(
             cells.iter().map(|cell| cell[2] * cell[2]).sum::<u64>(),
             1 << (2 * MAX_DEPTH)

@@ -1,8 +1,8 @@
 //! The search for evidence, in floating point.
 //!
-//! Nothing here is trusted: what is found is a claim, which the checks of the parent module prove or not.
-//! The Jacobian is searched on the bounds of its enclosed coefficients, so that the subdivision found suits
-//! wide enclosures too; boundary and curvatures on the middles.
+//! Nothing here is trusted: what is found is a claim, which the checks of the parent module prove or not. The
+//! Jacobian is searched on the bounds of its enclosed coefficients, so that the subdivision found suits wide
+//! enclosures too; boundary and curvatures on the middles.
 
 use super::gauss::{self, CurvatureEvidence, Heights, Sign};
 use super::regular::JacobianEvidence;

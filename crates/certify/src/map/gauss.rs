@@ -1,23 +1,22 @@
 //! Signs of the Gauss curvature of second-order maps.
 //!
-//! A second-order map z over the characteristic map (x, y) is meant to be a cup with `z_xx z_yy - z_xy^2 >
-//! 0` everywhere or a saddle with `< 0`; `K_m` of Ma, Wang and Ma (2023, Eq. 33) collects the worst values
-//! of the cup and of two saddles. With J the Jacobian and, for w = uu, uv, vv,
+//! A second-order map z over the characteristic map (x, y) is meant to be a cup with `z_xx z_yy - z_xy^2 > 0`
+//! everywhere or a saddle with `< 0`; `K_m` of Ma, Wang and Ma (2023, Eq. 33) collects the worst values of
+//! the cup and of two saddles. With J the Jacobian and, for w = uu, uv, vv,
 //!
 //! ```text
 //! L_w = J z_w + z_u (x_v y_w - y_v x_w) + z_v (y_u x_w - x_u y_w)
 //! ```
 //!
 //! (the determinants that give the second fundamental form) the chain rule gives `z_xx z_yy - z_xy^2 = K /
-//! J^4` with the polynomial `K = L_uu L_vv - L_uv^2` of degrees `6 d - 4`. Raised to the degrees `8 d - 4`
-//! of `J^4`, the quotient is a rational Bezier function: where all coefficients `w_i` of `J^4` are positive
-//! its values are convex combinations of the quotients `k_i / w_i` of coefficients, whose smallest is
-//! therefore a bound. On parts of the patches it converges to the extreme value, quadratically with their
-//! size.
+//! J^4` with the polynomial `K = L_uu L_vv - L_uv^2` of degrees `6 d - 4`. Raised to the degrees `8 d - 4` of
+//! `J^4`, the quotient is a rational Bezier function: where all coefficients `w_i` of `J^4` are positive its
+//! values are convex combinations of the quotients `k_i / w_i` of coefficients, whose smallest is therefore a
+//! bound. On parts of the patches it converges to the extreme value, quadratically with their size.
 //!
 //! **Sectors.** A cup (index 0) and a mode of index N/2 look the same in every sector, up to sign. The pair
-//! of saddles `z1 + i z2` of another index k turns with the sectors by `phi = 2 pi k j / N`. K is a
-//! quadratic form in z; with its bilinear form `K_ab` on sector 0 the two maps have, in sector j,
+//! of saddles `z1 + i z2` of another index k turns with the sectors by `phi = 2 pi k j / N`. K is a quadratic
+//! form in z; with its bilinear form `K_ab` on sector 0 the two maps have, in sector j,
 //!
 //! ```text
 //! (K_11 + K_22) / 2 +- ((K_11 - K_22) / 2 cos 2 phi - K_12 sin 2 phi),

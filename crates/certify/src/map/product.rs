@@ -38,9 +38,8 @@ use eigenring_spline::bernstein::{Coefficient, Scaled, convolution};
 
 impl<const D: usize> Coefficient for Centred<D> {}
 
-/// Coefficients beyond this could make a sum of products overflow; the plain product handles them. Below it
-/// a product is at most `6 LARGE^2` (a radius may be twice a magnitude), and `2^20` of them stay below
-/// `1e287`.
+/// Coefficients beyond this could make a sum of products overflow; the plain product handles them. Below it a
+/// product is at most `6 LARGE^2` (a radius may be twice a magnitude), and `2^20` of them stay below `1e287`.
 const LARGE: f64 = 1e140;
 
 impl Coefficient for Interval {

@@ -5,11 +5,11 @@
 //! which converge to its values. By rotation (and reflection) symmetry one sector (or half of it) stands for
 //! all.
 //!
-//! **Refuted** by two points of the annulus where the Jacobian certainly has opposite signs: it is
-//! continuous (d >= 2) on a connected set, so it vanishes somewhere, and the map is not injective either,
-//! since the degree of an injective map of the plane is constant and 1 or -1. The normals of almost all
-//! surfaces then point to both sides (Peters and Reif 2008, section 5.2). A Jacobian that merely touches
-//! zero refutes nothing.
+//! **Refuted** by two points of the annulus where the Jacobian certainly has opposite signs: it is continuous
+//! (d >= 2) on a connected set, so it vanishes somewhere, and the map is not injective either, since the
+//! degree of an injective map of the plane is constant and 1 or -1. The normals of almost all surfaces then
+//! point to both sides (Peters and Reif 2008, section 5.2). A Jacobian that merely touches zero refutes
+//! nothing.
 
 use super::{Place, PlaneNet, Subdivision};
 use crate::{Enclose, Interval, Status};

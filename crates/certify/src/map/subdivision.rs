@@ -7,8 +7,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The deepest subdivision accepted: parts of size `2^-20`, beyond which enclosures of doubles have no
-/// digits to win.
+/// The deepest subdivision accepted: parts of size `2^-20`, beyond which enclosures of doubles have no digits
+/// to win.
 pub const MAX_DEPTH: usize = 20;
 
 /// A tree of halvings, see the module page.
@@ -31,8 +31,7 @@ impl Subdivision {
         Subdivision("0".into())
     }
 
-    /// The tree that results from asking of every part whether to cut it, coarse parts first, parts in
-    /// order.
+    /// The tree that results from asking of every part whether to cut it, coarse parts first, parts in order.
     pub fn grow<T>(root: T, cut: &impl Fn(&T) -> Vec<T>, wanted: &mut impl FnMut(&T, usize) -> bool) -> Self {
         fn descend<T>(
             part: &T,

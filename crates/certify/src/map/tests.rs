@@ -10,8 +10,7 @@ use eigenring_spectral::{LocalSystem, Maps};
 /// The modes computed in doubles are right within this, relative to values of size 10.
 const RADIUS: f64 = 1e-12;
 
-/// The leading mode of a Fourier index on the scheme's annulus, real and imaginary part, with its
-/// eigenvalue.
+/// The leading mode of a Fourier index on the scheme's annulus, real and imaginary part, with its eigenvalue.
 pub(super) fn mode(scheme: &Scheme<f64>, annulus: Annulus, fourier: usize) -> (f64, [Vec<f64>; 2]) {
     let system = LocalSystem::new(scheme.limit(), annulus.numbering.rings).unwrap();
     let value = system.blocks()[fourier].eigenvalues().unwrap()[0].value.0;

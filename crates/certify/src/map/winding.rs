@@ -1,43 +1,43 @@
 //! Injectivity: a regular self-similar map is injective exactly when its outer boundary winds once round the
 //! origin.
 //!
-//! **Theorem** (Reif 1995; Zorin 2000, *SIAM J. Numer. Anal.* 37; Umlauf 2000; Peters and Reif 2008,
-//! chapter 5). Let the map `X` of the annulus be regular, extended by `X(2 t) = X(t) / lambda`, `0 < lambda
-//! < 1`, and let the image of its outer boundary miss the origin and have winding number w about it. Then
-//! the extension covers the punctured plane `|w|` times; it is injective if and only if `|w| = 1`.
+//! **Theorem** (Reif 1995; Zorin 2000, *SIAM J. Numer. Anal.* 37; Umlauf 2000; Peters and Reif 2008, chapter
+//! 5). Let the map `X` of the annulus be regular, extended by `X(2 t) = X(t) / lambda`, `0 < lambda < 1`, and
+//! let the image of its outer boundary miss the origin and have winding number w about it. Then the extension
+//! covers the punctured plane `|w|` times; it is injective if and only if `|w| = 1`.
 //!
 //! *Why.* The inner boundary is the outer one scaled by lambda, so it has the same winding number, and the
 //! number of times the annulus covers the origin, the difference of the two (all preimages count with one
-//! sign), is zero: the origin is never met. The map of the punctured plane to itself is a local
-//! homeomorphism that commutes with the scalings, hence a local homeomorphism of the quotients, which are
-//! tori. Of compact spaces this is a covering, with `|w|` sheets by its action on loops. If `|w|` is not 1
-//! no injective extension exists, regular or not: the boundary would be a Jordan curve about the origin.
+//! sign), is zero: the origin is never met. The map of the punctured plane to itself is a local homeomorphism
+//! that commutes with the scalings, hence a local homeomorphism of the quotients, which are tori. Of compact
+//! spaces this is a covering, with `|w|` sheets by its action on loops. If `|w|` is not 1 no injective
+//! extension exists, regular or not: the boundary would be a Jordan curve about the origin.
 //!
 //! **The winding number** without angles. Parts of the boundary curve of sector 0 are found each in one of
-//! the four open half-planes `x > 0`, `y > 0`, `x < 0`, `y < 0`, numbered by quarter turns. Consecutive
-//! parts share a point, so their half-planes differ by at most a quarter; c is the sum of these
-//! differences. Each end of the curve has an argument within a quarter turn of its half-plane's, so the
-//! change of argument lies in `(c/4 - 1/2, c/4 + 1/2)` turns. By rotation symmetry it is `k / N + j` for an
-//! integer j, of which that range holds at most one; the N sectors together wind `k + N j` times.
+//! the four open half-planes `x > 0`, `y > 0`, `x < 0`, `y < 0`, numbered by quarter turns. Consecutive parts
+//! share a point, so their half-planes differ by at most a quarter; c is the sum of these differences. Each
+//! end of the curve has an argument within a quarter turn of its half-plane's, so the change of argument lies
+//! in `(c/4 - 1/2, c/4 + 1/2)` turns. By rotation symmetry it is `k / N + j` for an integer j, of which that
+//! range holds at most one; the N sectors together wind `k + N j` times.
 //!
 //! **Open fans.** Let X be regular on an open fan, `X(t/2) = diag(lambda_1, lambda_2) X(t)`, and let the
-//! images of the first and the last spoke be simple curves from the origin to infinity that do not meet.
-//! They divide the plane into two parts. Gluing the part that does not begin on X's side of them to the
-//! fan, by a homeomorphism that commutes with the scalings, makes a local homeomorphism of a closed fan, to
-//! which the theorem above applies: it is injective exactly if the boundary of the annulus, closed within
-//! the part that was added, winds once. Coordinate half-planes are mapped to themselves by the scalings.
-//! That is made use of twice:
+//! images of the first and the last spoke be simple curves from the origin to infinity that do not meet. They
+//! divide the plane into two parts. Gluing the part that does not begin on X's side of them to the fan, by a
+//! homeomorphism that commutes with the scalings, makes a local homeomorphism of a closed fan, to which the
+//! theorem above applies: it is injective exactly if the boundary of the annulus, closed within the part that
+//! was added, winds once. Coordinate half-planes are mapped to themselves by the scalings. That is made use
+//! of twice:
 //!
 //! * a spoke lies in one of them, with its coordinate there increasing outwards: it is a simple curve;
 //! * the last spoke lies in one of them, H, and the first in the complement of H: they do not meet.
 //!
-//! Let H be the half-plane of quarter b and J positive. The argument of the end on the last spoke is then
-//! in `(b-1, b+1)` quarters, that of the beginning, one turn less than beyond H, in `[b-3, b-1]`: the
-//! half-plane a in which it was found is one of `b-3 .. b-1`. The boundary turns by c half-planes; closed
-//! on the way from `b-1 .. b+1` up to the next beginning it winds once if and only if its end comes out at
-//! that very place, not whole turns away from it: if and only if `|a + c - b| <= 1`. For a negative J the
-//! same holds of the mirror image, with `a` one of `b+1 .. b+3`. (The two do not overlap, and a regular map
-//! cannot have the number of the wrong orientation: it would cover the plane no times.)
+//! Let H be the half-plane of quarter b and J positive. The argument of the end on the last spoke is then in
+//! `(b-1, b+1)` quarters, that of the beginning, one turn less than beyond H, in `[b-3, b-1]`: the half-plane
+//! a in which it was found is one of `b-3 .. b-1`. The boundary turns by c half-planes; closed on the way
+//! from `b-1 .. b+1` up to the next beginning it winds once if and only if its end comes out at that very
+//! place, not whole turns away from it: if and only if `|a + c - b| <= 1`. For a negative J the same holds of
+//! the mirror image, with `a` one of `b+1 .. b+3`. (The two do not overlap, and a regular map cannot have the
+//! number of the wrong orientation: it would cover the plane no times.)
 
 use super::{PlaneNet, Subdivision};
 use crate::{Enclose, Interval, Status};
@@ -170,8 +170,8 @@ fn once(start: i64, c: i64, last: i64) -> Option<i64> {
     }
 }
 
-/// The half-plane in which the last spoke of an open fan lies, outside of which the first one lies; `None`
-/// if there is none, or they are not known to be simple curves.
+/// The half-plane in which the last spoke of an open fan lies, outside of which the first one lies; `None` if
+/// there is none, or they are not known to be simple curves.
 fn last_half_plane<S: Enclose>(net: &PlaneNet<S>) -> Option<i64> {
     let conversion = to_bernstein::<S>(net.annulus().degree);
     let width = net.annulus().degree + 1;

@@ -1,19 +1,16 @@
 //! Splines on one side of a spoke: their Bernstein form and their refinement, by blossoms.
 //!
-//! Along a direction that leaves a spoke at its knot 0, knots are `i after` for i >= 0 and `i before` for i
-//! < 0. Control point k of a spline of odd degree d is its blossom at the d knots `k - (d-1)/2 .. k +
-//! (d-1)/2` (Ramshaw 1989, *Blossoms are polar forms*). From this follow, by affine combinations with exact
-//! weights,
+//! Along a direction that leaves a spoke at its knot 0, knots are `i after` for i >= 0 and `i before` for i <
+//! 0. Control point k of a spline of odd degree d is its blossom at the d knots `k - (d-1)/2 .. k + (d-1)/2`
+//! (Ramshaw 1989, *Blossoms are polar forms*). From this follow, by affine combinations with exact weights,
 //!
-//! * the Bernstein coefficients on the interval from knot j to knot j+1: the blossom at so many times the
-//! one
+//! * the Bernstein coefficients on the interval from knot j to knot j+1: the blossom at so many times the one
 //!   and the other;
-//! * the control points over halved intervals: the blossom at the finer knots. The functions are the same,
-//! by
+//! * the control points over halved intervals: the blossom at the finer knots. The functions are the same, by
 //!   the uniqueness of blossoms.
 //!
-//! Beside a **boundary or crease** the net is continued by `P_(-k) = 2 P_0 - P_k`, and the knots are
-//! uniform. The uniform rule is its own mirror image, so that the refined net is continued in the same way.
+//! Beside a **boundary or crease** the net is continued by `P_(-k) = 2 P_0 - P_k`, and the knots are uniform.
+//! The uniform rule is its own mirror image, so that the refined net is continued in the same way.
 
 use eigenring_scheme::BigRational;
 use num_traits::{One, Zero};

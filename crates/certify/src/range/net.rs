@@ -54,8 +54,8 @@ pub fn characteristic(point: &Point) -> Option<PlaneNet<Centred<1>>> {
     PlaneNet::new(annulus, 1, true, [x, y]).ok()
 }
 
-/// Gaussian elimination, pivots by their size at the centre; `None` if a pivot may be zero. Meant for the
-/// few unknowns of a ring.
+/// Gaussian elimination, pivots by their size at the centre; `None` if a pivot may be zero. Meant for the few
+/// unknowns of a ring.
 fn eliminate<S: Enclose>(matrix: Matrix<S>, right: Vec<S>) -> Option<Vec<S>> {
     let size = right.len();
     let mut rows: Vec<Vec<S>> = (0..size)

@@ -143,8 +143,8 @@ impl Block {
     }
 }
 
-/// What is left of a matrix and its unknowns when eigenvectors are divided out, one after the other. One
-/// that is not known to have an entry other than zero stays in.
+/// What is left of a matrix and its unknowns when eigenvectors are divided out, one after the other. One that
+/// is not known to have an entry other than zero stays in.
 fn without(
     mut matrix: Matrix<Interval>,
     mut unknowns: Vec<usize>,

@@ -6,8 +6,8 @@ use eigenring_spectral::Matrix;
 use serde::{Deserialize, Serialize};
 
 /// How a component comes apart: approximations of simple real eigenpairs to divide out, each a pair of the
-/// matrix that the ones before have left, and a bound for what remains. Anything may be wrong here; it is
-/// not believed.
+/// matrix that the ones before have left, and a bound for what remains. Anything may be wrong here; it is not
+/// believed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Peel {
@@ -34,8 +34,8 @@ pub struct Located {
     pub value: Eigenvalue,
     /// The vector, which is not zero. It is exactly 1 at some entry if its pair was the first to be divided
     /// out, or none was. Others are so in the quotient where they were found, and not once they are lifted.
-    /// No claim is made of the largest entry, least of all beyond the component: where outer rings follow
-    /// the vector it may be there. Checks of the map do not depend on the scale.
+    /// No claim is made of the largest entry, least of all beyond the component: where outer rings follow the
+    /// vector it may be there. Checks of the map do not depend on the scale.
     pub vector: Option<Vec<Interval>>,
 }
 

@@ -16,8 +16,8 @@ pub type Net = Vec<Complex<Interval>>;
 /// free of the eigenvalue.
 ///
 /// On components that do not read the entry's own one the vector is zero; on those that do, in their order,
-/// it is the solution of `(value - S_dd) v_d = sum_e S_de v_e` over the components e before d. `value` may
-/// be a sharper enclosure of the entry's eigenvalue.
+/// it is the solution of `(value - S_dd) v_d = sum_e S_de v_e` over the components e before d. `value` may be
+/// a sharper enclosure of the entry's eigenvalue.
 pub fn modulo_constants(block: &Block, entry: &Entry, value: Interval) -> Option<Vec<Interval>> {
     if matches!(block.place, Place::Parts | Place::Quotient) {
         return None;

@@ -19,11 +19,11 @@ use std::process::ExitCode;
 
 /// Refine the control points of a curve of any order with tension, and draw it.
 ///
-/// POINTS is a table of numbers: a point a line, one coordinate or more, with or without a header, in any
-/// of the formats that 'eigenring spectrum --matrix' reads; - is standard input. The refined points of the
-/// last level go to standard output, or with -o into a file; columns are level, parameter, and x, y, z (x1,
-/// x2, ... beyond three). An open curve belongs to the middle of its polygon: it does not reach the first
-/// and the last control point.
+/// POINTS is a table of numbers: a point a line, one coordinate or more, with or without a header, in any of
+/// the formats that 'eigenring spectrum --matrix' reads; - is standard input. The refined points
+/// of the last level go to standard output, or with -o into a file; columns are level, parameter, and x, y, z
+/// (x1, x2, ... beyond three). An open curve belongs to the middle of its polygon: it does not reach the
+/// first and the last control point.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  eigenring curve --example circle --count 4 --order 3    four points, an exact circle\n  eigenring curve --example fang-fig1 --levels 4 -o refined.csv --limit limit.csv --plot curve.svg\n  eigenring curve --example ellipse --levels 1 --format json\n  eigenring curve --example hyperbola --revolve --segments 6 --obj h.obj --plot h.png\nWith points of your own: eigenring curve points.csv --order 4 --u0 10 --closed --plot curve.png"

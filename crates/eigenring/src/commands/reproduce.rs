@@ -156,8 +156,7 @@ fn recheck(entry: &Entry, out: &Path, threads: Threads) -> Result<Option<(bool, 
     )))
 }
 
-/// Runs this program with other arguments. Its bar, if it draws one, is not shown: the caller counts
-/// entries.
+/// Runs this program with other arguments. Its bar, if it draws one, is not shown: the caller counts entries.
 fn run(words: &[String], threads: Threads) -> Result<Output, Error> {
     let program = std::env::current_exe().map_err(Error::Start)?;
     let mut command = Command::new(program);

@@ -38,8 +38,8 @@ pub struct Arguments {
     /// [..;..], Matrix Market, NumPy or JSON. Its rotation is found in all usual orders of points
     #[arg(long, value_name = "FILE", group = "source")]
     matrix: Option<PathBuf>,
-    /// With --matrix: the points in its order, a table with the columns sector and others that name the
-    /// place within the sector, as 'eigenring matrix --numbering' writes it
+    /// With --matrix: the points in its order, a table with the columns sector and others that name the place
+    /// within the sector, as 'eigenring matrix --numbering' writes it
     #[arg(long, value_name = "FILE", conflicts_with = "scheme")]
     numbering: Option<PathBuf>,
     #[command(flatten)]

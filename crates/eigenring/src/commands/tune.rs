@@ -14,9 +14,9 @@ use std::process::ExitCode;
 
 /// Optimise f2 and f3 at one lambda, or lambda too.
 ///
-/// At one lambda there may be several local minima; the one reported is that of the branch which is
-/// continued from the global optimum over lambda (branch: "continued"), as far as the valence is tabulated,
-/// else the lowest (branch: "lowest"). The lowest value is reported beside it.
+/// At one lambda there may be several local minima; the one reported is that of the branch which is continued
+/// from the global optimum over lambda (branch: "continued"), as far as the valence is tabulated, else the
+/// lowest (branch: "lowest"). The lowest value is reported beside it.
 #[derive(Args, Debug)]
 #[command(group = ArgGroup::new("target").required(true))]
 #[command(after_help = "Examples:\n  eigenring tune -N 6 --lambda 0.39\n  eigenring tune -N 25 --global --format json")]

@@ -27,8 +27,8 @@ use std::process::ExitCode;
 ///
 /// What is certified is the exact scheme: decimals and fractions stand for themselves. Each statement is
 /// proven, refuted with a witness, undecided, or, for weights that are results of rounding, numerical. The
-/// exit code is 0 if everything that is required is proven, and 1 if not. docs/certificates.md says what
-/// each statement means and which theorems are used.
+/// exit code is 0 if everything that is required is proven, and 1 if not. docs/certificates.md says what each
+/// statement means and which theorems are used.
 #[derive(Args, Debug)]
 #[command(group = ArgGroup::new("what").required(true).multiple(true))]
 #[command(
@@ -63,9 +63,9 @@ pub struct Arguments {
     /// What must be proven
     #[arg(long, value_enum, default_value_t, conflicts_with_all = ["recheck", "all"])]
     require: Required,
-    /// Take the weights of a file as they are written: by default the special stencils' sums within 1e-12
-    /// of 1, and weights that a reflection exchanges (at the centre also a rotation) and that differ by no
-    /// more, are taken for rounded and balanced
+    /// Take the weights of a file as they are written: by default the special stencils' sums within 1e-12 of
+    /// 1, and weights that a reflection exchanges (at the centre also a rotation) and that differ by no more,
+    /// are taken for rounded and balanced
     #[arg(long, conflicts_with_all = ["recheck", "all", "lambda_range"])]
     exact: bool,
     /// Also store the certificate; with several valences a folder, with a file such as N005.json for each

@@ -1,10 +1,10 @@
 //! Catmull-Clark subdivision, in its generic C1 bicubic form.
 //!
 //! E. Catmull and J. Clark, *Recursively generated B-spline surfaces on arbitrary topological meshes*,
-//! Computer-Aided Design 10(6), 1978, <https://doi.org/10.1016/0010-4485(78)90110-0>. Edge and face points
-//! by the regular rules, the vertex by `(1 - 7/(4N)) V + 3/(2N) mean E + 1/(4N) mean F`. The surface is C1
-//! at every valence (Peters and Reif 1998); its curvature is unbounded for N >= 5 and zero in the limit at
-//! N = 3.
+//! Computer-Aided Design 10(6), 1978, <https://doi.org/10.1016/0010-4485(78)90110-0>. Edge and face points by
+//! the regular rules, the vertex by `(1 - 7/(4N)) V + 3/(2N) mean E + 1/(4N) mean F`. The surface is C1 at
+//! every valence (Peters and Reif 1998); its curvature is unbounded for N >= 5 and zero in the limit at N =
+//! 3.
 
 use crate::{Error, OneRing, Scalar, Scheme, Site};
 

@@ -1,10 +1,10 @@
 //! Doo-Sabin subdivision with the original weights.
 //!
-//! D. Doo and M. Sabin, *Behaviour of recursive division surfaces near extraordinary points*,
-//! Computer-Aided Design 10(6), 1978, <https://doi.org/10.1016/0010-4485(78)90111-2>. A biquadratic scheme
-//! on face nets: the new corner of an N-gon keeps `(N+5)/(4N)` of the old one and takes `(3 + 2 cos(2 pi
-//! j/N))/(4N)` of the corner `j` places further. In the Fourier basis this is the eigenvalue 1/2 in blocks
-//! 1 and N-1 and 1/4 in all others, for every N.
+//! D. Doo and M. Sabin, *Behaviour of recursive division surfaces near extraordinary points*, Computer-Aided
+//! Design 10(6), 1978, <https://doi.org/10.1016/0010-4485(78)90111-2>. A biquadratic scheme on face nets: the
+//! new corner of an N-gon keeps `(N+5)/(4N)` of the old one and takes `(3 + 2 cos(2 pi j/N))/(4N)` of the
+//! corner `j` places further. In the Fourier basis this is the eigenvalue 1/2 in blocks 1 and N-1 and 1/4 in
+//! all others, for every N.
 
 use crate::{Error, Fan, Lattice, Level, Line, Pass, Same, Scalar, Scheme, Site, Stencil};
 

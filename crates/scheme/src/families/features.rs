@@ -1,12 +1,12 @@
 //! Creases, boundaries, darts, corners and cusps of bicubic and of all even orders.
 //!
-//! In every smoothing step a vertex counts its active edges: boundary edges always, crease edges in the
-//! first `cs` steps. With none or one it has the smooth mask (one: a dart), with two the mask of the curve
-//! along them, `u/(1+u)` and twice `1/(2(1+u))`, with three or more it stays (a corner). A tagged vertex
-//! stays in its first `cs` steps, on a boundary in all. Points of an active spoke have the curve's mask, so
-//! that no rule reads across it (Fang, Ma and Wang, *A generalized surface subdivision scheme of arbitrary
-//! order with a tension parameter*, section 4; for order 4 at u = 1 these are the rules of Hoppe and others
-//! 1994 and of DeRose, Kass and Truong 1998).
+//! In every smoothing step a vertex counts its active edges: boundary edges always, crease edges in the first
+//! `cs` steps. With none or one it has the smooth mask (one: a dart), with two the mask of the curve along
+//! them, `u/(1+u)` and twice `1/(2(1+u))`, with three or more it stays (a corner). A tagged vertex stays in
+//! its first `cs` steps, on a boundary in all. Points of an active spoke have the curve's mask, so that no
+//! rule reads across it (Fang, Ma and Wang, *A generalized surface subdivision scheme of arbitrary order with
+//! a tension parameter*, section 4; for order 4 at u = 1 these are the rules of Hoppe and others 1994 and of
+//! DeRose, Kass and Truong 1998).
 
 use super::tension::{Name, smoothing_names};
 use crate::{Corner, Error, Lattice, Level, Line, Pass, Scalar, Site, Stencil};

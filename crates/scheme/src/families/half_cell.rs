@@ -2,11 +2,11 @@
 //!
 //! The literature leaves the boundary of dual schemes open; these rules are this project's. A boundary or
 //! crease (a *rim*) carries points `b` of the curve of the same order; the cells along it are *half cells*,
-//! `b_r, q_1 .. q_n, b_l` counter-clockwise from the rim on the right, in front of them the corner if the
-//! rim turns there. On regular nets (n = 2; n = 1 at corners) the rules are those of the net continued by
-//! odd reflection, `P_-j = 2 P_0 - P_j`; in general they have the spectrum 1, 1/2, 1/2, 1/4, .. of half a
-//! face of 2n corners. With `m` the middle of `b_r` and `b_l`, or the corner, `t_j = (2j-1) pi/(2n)` and
-//! `B_i` the nearer one of `b_r`, `b_l`:
+//! `b_r, q_1 .. q_n, b_l` counter-clockwise from the rim on the right, in front of them the corner if the rim
+//! turns there. On regular nets (n = 2; n = 1 at corners) the rules are those of the net continued by odd
+//! reflection, `P_-j = 2 P_0 - P_j`; in general they have the spectrum 1, 1/2, 1/2, 1/4, .. of half a face of
+//! 2n corners. With `m` the middle of `b_r` and `b_l`, or the corner, `t_j = (2j-1) pi/(2n)` and `B_i` the
+//! nearer one of `b_r`, `b_l`:
 //!
 //! ```text
 //! q_i' = m + (u/(1+u))^2 (q_i - m)

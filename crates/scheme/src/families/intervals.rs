@@ -1,10 +1,10 @@
 //! Bicubic rules with knot intervals: around a vertex of valence 4, and around a face that is never split.
 //!
-//! Where four sectors meet, intervals are those of two knot vectors, and the rules are tensor products of
-//! the univariate ones (Sederberg, Zheng, Sewell and Sabin 1998, Eqs. 1 to 3). After a level the first two
-//! edges of a spoke have the same interval, so that the rules change for two levels and are the same from
-//! then on. Around the n-gon of HNUSS (Li, Wei and Zhang 2019, section 4.3) points are doubled along the
-//! spokes, and the corners of the n-gon have the rule
+//! Where four sectors meet, intervals are those of two knot vectors, and the rules are tensor products of the
+//! univariate ones (Sederberg, Zheng, Sewell and Sabin 1998, Eqs. 1 to 3). After a level the first two edges
+//! of a spoke have the same interval, so that the rules change for two levels and are the same from then on.
+//! Around the n-gon of HNUSS (Li, Wei and Zhang 2019, section 4.3) points are doubled along the spokes, and
+//! the corners of the n-gon have the rule
 //!
 //! ```text
 //! P_i'    = (P_i + C)/2 + alpha_i (-n P_i + sum_j (1 + 2 cos(2 pi (j-i)/n)) P_j),     C = sum_i beta_i P_i
@@ -20,8 +20,8 @@ use crate::{Centre, Corner, Error, Fan, Lattice, Level, Pass, Scalar, Scheme, St
 /// The scheme around a corner with knot intervals.
 ///
 /// # Errors
-/// [`Error::Unsupported`] unless it is a closed fan without creases, and around a vertex one of four
-/// sectors; [`Error::ZeroIntervals`] where a rule divides by a sum of intervals that are all zero.
+/// [`Error::Unsupported`] unless it is a closed fan without creases, and around a vertex one of four sectors;
+/// [`Error::ZeroIntervals`] where a rule divides by a sum of intervals that are all zero.
 pub fn with_intervals<S: Scalar>(name: &str, corner: &Corner) -> Result<Scheme<S>, Error> {
     let fan = corner.sectors();
     let refuse = |accepted: &str| Error::Unsupported {

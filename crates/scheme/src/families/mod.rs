@@ -64,14 +64,14 @@ pub fn tension_around<S: Scalar>(corner: &Corner, order: usize, u0: f64) -> Resu
 /// One level of the tension scheme around a corner at the tension `u`; the limit level is that of `u = 1`.
 ///
 /// # Errors
-/// [`Error::Order`]; [`Error::Unsupported`] for odd orders beside boundaries and creases, for knot
-/// intervals, and for creases that act in more steps than there are.
+/// [`Error::Order`]; [`Error::Unsupported`] for odd orders beside boundaries and creases, for knot intervals,
+/// and for creases that act in more steps than there are.
 pub fn tension_level<S: Scalar>(corner: &Corner, order: usize, u: S) -> Result<Level<S>, Error> {
     Ok(tension::valued(&tension_names(corner, order)?, u))
 }
 
-/// The tension of the first level after the leading ones that [`tension`] lists, at which it is 1 to
-/// rounding in doubles. `None` for `u0 = 1`, where all levels are the limit level.
+/// The tension of the first level after the leading ones that [`tension`] lists, at which it is 1 to rounding
+/// in doubles. `None` for `u0 = 1`, where all levels are the limit level.
 pub fn tension_after_leading<S: Scalar>(u0: f64) -> Option<S> {
     let mut tensions = tension::tensions::<S>(u0);
     tensions.pop();

@@ -1,10 +1,9 @@
 //! The generalised tension scheme of arbitrary order.
 //!
-//! Fang, Ma and Wang, *A generalized surface subdivision scheme of arbitrary order with a tension
-//! parameter*, Computer-Aided Design. Order k gives surfaces of degree k-1 on regular nets: uniform
-//! B-splines at tension `u = 1`, trigonometric ones at `u = cos a`, hyperbolic ones at `u = cosh a`. The
-//! tension goes from level to level by the half-angle formula `u' = sqrt((1+u)/2)`, so the limit level is
-//! that of `u = 1`.
+//! Fang, Ma and Wang, *A generalized surface subdivision scheme of arbitrary order with a tension parameter*,
+//! Computer-Aided Design. Order k gives surfaces of degree k-1 on regular nets: uniform B-splines at tension
+//! `u = 1`, trigonometric ones at `u = cos a`, hyperbolic ones at `u = cosh a`. The tension goes from level
+//! to level by the half-angle formula `u' = sqrt((1+u)/2)`, so the limit level is that of `u = 1`.
 //!
 //! **Even orders** (around a vertex): bilinear refinement, one smoothing that knows the tension, `(k-4)/2`
 //! uniform ones. At a vertex of valence N the smoothings keep `((N-4)(1+2u) + N u^2) / (N (1+u)^2)` and
@@ -32,8 +31,8 @@ const MAX_LEADING: usize = 600;
 /// orders).
 ///
 /// # Errors
-/// [`Error::Valence`] below 3, [`Error::Order`] unless 3 <= order <= [`MAX_ORDER`], [`Error::Tension`]
-/// unless u0 is finite and above -1.
+/// [`Error::Valence`] below 3, [`Error::Order`] unless 3 <= order <= [`MAX_ORDER`], [`Error::Tension`] unless
+/// u0 is finite and above -1.
 pub fn tension<S: Scalar>(valence: usize, order: usize, u0: f64) -> Result<Scheme<S>, Error> {
     let names = names(valence, order)?;
     check_tension(u0)?;
@@ -110,8 +109,8 @@ pub fn tension_at<S: Scalar>(u0: f64, level: usize) -> S {
     tensions.swap_remove(level.min(tensions.len() - 1))
 }
 
-/// The weights of smoothing `step`, 0 for the one that knows the tension `u`, at a vertex of any valence
-/// from 2: its own, that of each edge neighbour, that of each face neighbour.
+/// The weights of smoothing `step`, 0 for the one that knows the tension `u`, at a vertex of any valence from
+/// 2: its own, that of each edge neighbour, that of each face neighbour.
 pub fn smoothing_weights<S: Scalar>(step: usize, valence: usize, u: S) -> [S; 3] {
     let [_, _, own, edge, face] = smoothing_names(step, valence as i64);
     let values = Values::new(valence, u);

@@ -12,15 +12,14 @@
 //! * `f3 >= 0`, and `f1 >= 0` against theta: `f3 >= (lambda - cos(pi/N)) / (1 - cos(pi/N))`;
 //! * `d2 >= 0`: f3 is at most the smaller root of
 //!   `(1-sg) f3^2 - lambda (1 + B sg - sg^2) f3 + sg lambda^2 (c1 sg - c2)`;
-//! * the last block, `(m+f3)(m+g3) + h m (1+c_K) >= 0` with `K = floor(N/2)` and `m = (1-kappa) mu`: f3 is
-//! at
+//! * the last block, `(m+f3)(m+g3) + h m (1+c_K) >= 0` with `K = floor(N/2)` and `m = (1-kappa) mu`: f3 is at
 //!   most the positive root of a quadratic, for even N (`c_K = -1`) of its linear factor: `f3 <= (m C + mu
 //!   A)/(m D + mu B)`. The paper uses the even formula at every N: [`Bounds::Paper`].
 //!
 //! **f2 at one f3.** `f1 >= 0` bounds f2 above, theta and `d1 >= 0` bound it below; `z0 <= m` keeps it
-//! between the roots of a quadratic, `z0 >= -m` and `1 - alpha - beta >= 0` outside the roots of two
-//! others. So f2 lies in one interval, or in two with a gap between (at phi = 6 this happens only at N = 3
-//! and lambda below about 0.52). `beta > 0` is implied.
+//! between the roots of a quadratic, `z0 >= -m` and `1 - alpha - beta >= 0` outside the roots of two others.
+//! So f2 lies in one interval, or in two with a gap between (at phi = 6 this happens only at N = 3 and lambda
+//! below about 0.52). `beta > 0` is implied.
 //!
 //! **N = 3**: `g3 = lambda mu/f3`, and `h >= 0` demands `mu <= f3 <= lambda`. The curve `z0 = m` meets that
 //! of theta at the lowest feasible f3. Towards `f3 = lambda` the intervals shrink to points that are not
@@ -69,8 +68,8 @@ pub struct Domain {
 pub struct F3End {
     /// Where it is.
     pub f3: f64,
-    /// The constraint that is active on the whole segment at this f3, or `None` if the domain ends there in
-    /// a point, where a lower and an upper curve of f2 meet.
+    /// The constraint that is active on the whole segment at this f3, or `None` if the domain ends there in a
+    /// point, where a lower and an upper curve of f2 meet.
     pub edge: Option<Constraint>,
 }
 
@@ -93,8 +92,8 @@ pub struct F2Interval {
 }
 
 impl Domain {
-    /// Rows of f3 on which a domain that is not feasible up to its f3 bounds is searched. Empirical: at phi
-    /// = 6 only N = 3 needs the search, and there every row above the lowest feasible one is feasible.
+    /// Rows of f3 on which a domain that is not feasible up to its f3 bounds is searched. Empirical: at phi =
+    /// 6 only N = 3 needs the search, and there every row above the lowest feasible one is feasible.
     const ROWS: u32 = 256;
 
     /// The domain with a relative margin `kappa` to the eigenvalue bounds.

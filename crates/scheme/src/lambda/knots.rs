@@ -4,12 +4,11 @@ use eigenring_spline::{Error, Knots};
 use serde::{Deserialize, Serialize};
 
 /// The five knots that determine the spline space of a valence (Ma, Wang and Ma 2023, Eq. 21): cubic, with
-/// the end knots `a`, `e` four times, the triple knots `b`, `c`, `d` where the stencils may have kinks, and
-/// a single knot half way between each two neighbours:
+/// the end knots `a`, `e` four times, the triple knots `b`, `c`, `d` where the stencils may have kinks, and a
+/// single knot half way between each two neighbours:
 ///
 /// ```text
-/// a a a a  (a+b)/2  b b b  (b+c)/2  c c c  (c+d)/2  d d d  (d+e)/2  e e e e        21 knots, 17
-/// coefficients
+/// a a a a  (a+b)/2  b b b  (b+c)/2  c c c  (c+d)/2  d d d  (d+e)/2  e e e e        21 knots, 17 coefficients
 /// ```
 ///
 /// `c` is lambda_l, the smallest lambda with bounded curvature.

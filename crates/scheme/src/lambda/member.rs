@@ -1,9 +1,9 @@
 //! One scheme of the family: where a name such as `lambda:optimal` becomes weights.
 //!
-//! A [`Member`] is a point of a [`Plane`]. Its weights are given, or come from the embedded table. Where
-//! the table does not reach, one tunes; this crate cannot, so whoever asks for a member hands in a function
-//! that is asked for the [`Untabulated`] one. A caller without a tuner hands in [`Untabulated::refuse`]. So
-//! a name means the same to all of them, or is refused.
+//! A [`Member`] is a point of a [`Plane`]. Its weights are given, or come from the embedded table. Where the
+//! table does not reach, one tunes; this crate cannot, so whoever asks for a member hands in a function that
+//! is asked for the [`Untabulated`] one. A caller without a tuner hands in [`Untabulated::refuse`]. So a name
+//! means the same to all of them, or is refused.
 
 use super::{LambdaTable, Plane, Relaxation};
 use crate::{Error, Scalar, Scheme};
@@ -108,8 +108,8 @@ impl Member {
         })
     }
 
-    /// The member at lambda: that of the table where it reaches and s is left to the rule, else what
-    /// `beyond` gives.
+    /// The member at lambda: that of the table where it reaches and s is left to the rule, else what `beyond`
+    /// gives.
     ///
     /// # Errors
     /// Those of the plane as in [`Member::given`], and those of `beyond`.

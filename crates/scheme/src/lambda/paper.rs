@@ -33,8 +33,8 @@ pub struct PaperRow {
     pub lambda_d: f64,
     /// The globally optimal lambda.
     pub lambda_c_star: f64,
-    /// End of the recommended region: beyond it 2-ring quadrilaterals of the natural configuration overlap
-    /// or are concave.
+    /// End of the recommended region: beyond it 2-ring quadrilaterals of the natural configuration overlap or
+    /// are concave.
     pub lambda_r2: f64,
 }
 

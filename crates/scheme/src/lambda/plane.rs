@@ -16,8 +16,8 @@ use crate::{Error, OneRing, Scalar};
 ///
 /// At N = 3 these formulas hold as they stand (they reduce to g3 = lambda mu / f3: block 2 is the conjugate
 /// of block 1 and mu is its other eigenvalue). At N = 4 block 2 is diagonal with entries g3 and f3, so both
-/// must be mu, and g3 = mu, h = (1-sg)(lambda-mu) are the continuation of the formulas to f3 = mu; only f2
-/// is free.
+/// must be mu, and g3 = mu, h = (1-sg)(lambda-mu) are the continuation of the formulas to f3 = mu; only f2 is
+/// free.
 #[derive(Clone, Copy, Debug)]
 pub struct Plane<S> {
     /// The valence N, at least 3.

@@ -1,8 +1,8 @@
 //! Which s belongs to a lambda.
 //!
 //! Bounded curvature is `mu = lambda^2`, i.e. `s = mu / lambda^2 = 1`. Below a valence's `lambda_l` no
-//! admissible stencil has it, and Ma, Wang and Ma (2023, Eq. 10) relax it to `s = s_l(lambda) + ds`, with
-//! the smallest possible `s_l`. With `c_k = cos(2 pi k / N)`, and the last two terms only for N >= 5,
+//! admissible stencil has it, and Ma, Wang and Ma (2023, Eq. 10) relax it to `s = s_l(lambda) + ds`, with the
+//! smallest possible `s_l`. With `c_k = cos(2 pi k / N)`, and the last two terms only for N >= 5,
 //!
 //! ```text
 //! s_l = max( 1,  1/(8 lambda^2),  c2/(c1 lambda),  (1+c2)/((1+2c1-c2) lambda) )
@@ -18,9 +18,9 @@
 //! between; here it falls linearly.
 //!
 //! s is a continuous function of lambda with kinks where the largest term changes and at both ends of the
-//! ramp. Between kinks it is a [`Branch`], a smooth formula that any [`Scalar`] can evaluate. `mu <
-//! lambda`, which a [`Plane`] demands, is met for every lambda of [0.15, 0.9] up to N = 256 (tested); where
-//! it is not, `Plane::new` says so.
+//! ramp. Between kinks it is a [`Branch`], a smooth formula that any [`Scalar`] can evaluate. `mu < lambda`,
+//! which a [`Plane`] demands, is met for every lambda of [0.15, 0.9] up to N = 256 (tested); where it is not,
+//! `Plane::new` says so.
 
 use super::Plane;
 use crate::{Error, Scalar};

@@ -9,8 +9,7 @@
 //! 2. a stencil whose weights sum to 1 within [`TOLERANCE`] is given the sum 1: the weight of the point
 //!    itself takes the rest, or all weights alike where the point is not among its own sources.
 //!
-//! What differs by more is meant, and stays. [`Balance`] says how many stencils were changed and by how
-//! much.
+//! What differs by more is meant, and stays. [`Balance`] says how many stencils were changed and by how much.
 
 use super::PassRules;
 use super::formula::Residual;
@@ -19,9 +18,9 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::collections::BTreeMap;
 
-/// Weights and sums closer than this are meant to be equal: weights below 1 that were printed with 13 or
-/// more decimals are off by less than a tenth of it, and no rule is known whose weights differ by so little
-/// on purpose.
+/// Weights and sums closer than this are meant to be equal: weights below 1 that were printed with 13 or more
+/// decimals are off by less than a tenth of it, and no rule is known whose weights differ by so little on
+/// purpose.
 const TOLERANCE: f64 = 1e-12;
 
 /// What balancing has changed.
@@ -158,8 +157,8 @@ fn mean_of(weights: &[BigRational]) -> Option<BigRational> {
 /// Weights that a reflection exchanges, of one stencil or of two that are each other's image.
 fn mirror_images(fan: Fan, repeated: bool, stencils: &mut BTreeMap<Site, Terms>) {
     for site in stencils.keys().copied().collect::<Vec<_>>() {
-        // the reflection in spoke 0, followed by the rotation that leads back to the sector in which
-        // stencils are listed
+        // the reflection in spoke 0, followed by the rotation that leads back to the sector in which stencils
+        // are listed
         let mirrored = site.mirrored(fan);
         let back = if repeated { -(mirrored.sector as i64) } else { 0 };
         let image = mirrored.rotated(fan, back);

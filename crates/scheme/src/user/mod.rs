@@ -30,14 +30,16 @@
 //! [[valence]]
 //! n = 3
 //!
-//! [[valence.pass]]                 # passes in order; the refined net must be of the kind that is read
-//! first from = "face" to = "face"
+//! [[valence.pass]]                 # passes in order; the refined net must be of the kind that is read first
+//! from = "face"
+//! to = "face"
 //! # one class of taps per target point and source point: [offset, weight];
 //! # the target X reads (X + offset) / classes
 //! line = [[[1, "3/4"], [-3, "1/4"]], [[-1, "3/4"], [3, "1/4"]]]
 //!
-//! [[valence.pass.special]]   # a point with a stencil of its own, in sector 0 unless `sector` says
-//! otherwise at = [1, 1] stencil = [
+//! [[valence.pass.special]]   # a point with a stencil of its own, in sector 0 unless `sector` says otherwise
+//! at = [1, 1]
+//! stencil = [
 //!     { at = [1, 1], weight = "2/3" },
 //!     { at = [1, 1], sector = 1, weight = "1/6" },
 //!     { at = [1, 1], sector = -1, weight = "1/6" },
@@ -110,17 +112,16 @@ use std::borrow::Cow;
 #[serde(rename_all = "lowercase")]
 pub enum Reading {
     /// Weights of special stencils that a reflection in a spoke exchanges, those of the centre's also if a
-    /// rotation does, and sums of special stencils, are taken for rounded where they differ by at most
-    /// 1e-12, from each other or from 1, and balanced: the weights become their mean, and a point's own
-    /// weight takes what is missing to 1, or all weights alike if the point is not among its own sources.
+    /// rotation does, and sums of special stencils, are taken for rounded where they differ by at most 1e-12,
+    /// from each other or from 1, and balanced: the weights become their mean, and a point's own weight takes
+    /// what is missing to 1, or all weights alike if the point is not among its own sources.
     #[default]
     Balanced,
     /// As written.
     Exact,
 }
 
-/// A scheme file, read and checked: rules for the valences it lists, and for those that its formulas are
-/// for.
+/// A scheme file, read and checked: rules for the valences it lists, and for those that its formulas are for.
 #[derive(Clone, Debug)]
 pub struct UserScheme {
     contents: Contents,
@@ -144,9 +145,8 @@ impl UserScheme {
     /// Reads a scheme from the text of a TOML file; `default_name` is used if the file gives none.
     ///
     /// # Errors
-    /// [`Error::SchemeFile`], with what is wrong and where. Sums of weights are not checked here: they are
-    /// a property to be verified, not a matter of form. Formulas of a rule are tried at a valence of its
-    /// range.
+    /// [`Error::SchemeFile`], with what is wrong and where. Sums of weights are not checked here: they are a
+    /// property to be verified, not a matter of form. Formulas of a rule are tried at a valence of its range.
     pub fn parse(text: &str, default_name: &str, reading: Reading) -> Result<Self, Error> {
         let contents = file::read(text)?;
         contents.check_names()?;
@@ -317,8 +317,8 @@ impl UserScheme {
 
     /// Whether the weights of every point sum to 1 for all values of a parameter at which they have a value.
     ///
-    /// Sums, less 1, are rational functions of the parameter, with a bound for the degree of the numerator
-    /// by the form of the formulas. One that is zero at more values than that is zero: the values are taken
+    /// Sums, less 1, are rational functions of the parameter, with a bound for the degree of the numerator by
+    /// the form of the formulas. One that is zero at more values than that is zero: the values are taken
     /// between the given ends, in exact numbers, and nothing is balanced. False says nothing.
     ///
     /// # Errors

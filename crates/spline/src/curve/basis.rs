@@ -8,10 +8,10 @@
 //! H(y) = w sin(w (1-|y|)) / (2 (1 - cos w)),   1 - |y|,   w sinh(w (1-|y|)) / (2 (cosh w - 1)),    |y| <= 1
 //! ```
 //!
-//! for `u = cos(w/2), 1, cosh(w/2)`. The limit of a single 1 is their convolution, `B_k = H * N_{k-2}`,
-//! where `N_{k-2}` is the uniform polynomial B-spline of k-2 intervals: **the basis of order k is the
-//! polynomial one of order k-2, averaged over H**. It is even, has support `[-k/2, k/2]` and k-2 continuous
-//! derivatives, and its shifts sum to one. For `u >= 0` it is positive.
+//! for `u = cos(w/2), 1, cosh(w/2)`. The limit of a single 1 is their convolution, `B_k = H * N_{k-2}`, where
+//! `N_{k-2}` is the uniform polynomial B-spline of k-2 intervals: **the basis of order k is the polynomial
+//! one of order k-2, averaged over H**. It is even, has support `[-k/2, k/2]` and k-2 continuous derivatives,
+//! and its shifts sum to one. For `u >= 0` it is positive.
 //!
 //! The average is taken by Gauss-Legendre quadrature between the knots. The integrand there is a polynomial
 //! of degree k-3 times an exponential function of a range of at most `2 pi` ([`ARC`]), so that the rule's
@@ -40,9 +40,8 @@ pub struct Basis {
 impl Basis {
     /// The basis of an order of at least 3.
     ///
-    /// The n nodes are exact to degree `2n-1 >= k-3+24`. On a piece of length `2 pi/w` the best
-    /// approximation of degree 24 to `exp(i w y)` or `exp(w y)` has an error of about `2 (pi/2)^25 / 25! =
-    /// 1e-20`.
+    /// The n nodes are exact to degree `2n-1 >= k-3+24`. On a piece of length `2 pi/w` the best approximation
+    /// of degree 24 to `exp(i w y)` or `exp(w y)` has an error of about `2 (pi/2)^25 / 25! = 1e-20`.
     pub(super) fn new(order: usize, tension: Tension) -> Self {
         Basis {
             order,
@@ -114,8 +113,7 @@ impl Basis {
         moments
     }
 
-    /// Nodes y in `[-1, 1]` and weights, H(y) included, of the average at the fraction f. Weights sum to
-    /// one.
+    /// Nodes y in `[-1, 1]` and weights, H(y) included, of the average at the fraction f. Weights sum to one.
     fn average(&self, f: f64) -> Vec<(f64, f64)> {
         let w = match self.tension.angle() {
             Angle::Polynomial => 0.0,

@@ -21,8 +21,8 @@ impl Grid {
     /// The surface of `u.count() * v.count()` control points.
     ///
     /// # Errors
-    /// [`Error::GridPoints`] for another number of points; [`Error::Dimension`] if points differ in
-    /// dimension or have none; [`Error::NotFinite`].
+    /// [`Error::GridPoints`] for another number of points; [`Error::Dimension`] if points differ in dimension
+    /// or have none; [`Error::NotFinite`].
     pub fn new<P: AsRef<[f64]>>(u: Axis, v: Axis, points: &[P]) -> Result<Self, Error> {
         let (rows, columns) = (u.count(), v.count());
         if rows.checked_mul(columns) != Some(points.len()) {

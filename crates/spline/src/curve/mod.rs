@@ -1,8 +1,7 @@
 //! Curves and tensor-product surfaces of the generalised scheme.
 //!
-//! Fang, Ma and Wang, *A generalized surface subdivision scheme of arbitrary order with a tension
-//! parameter*, Eqs. 1 and 2: a level of order k >= 3 cuts corners with tension u and then averages
-//! neighbours k-3 times,
+//! Fang, Ma and Wang, *A generalized surface subdivision scheme of arbitrary order with a tension parameter*,
+//! Eqs. 1 and 2: a level of order k >= 3 cuts corners with tension u and then averages neighbours k-3 times,
 //!
 //! ```text
 //! Q_2i = ((1+2u) P_i + P_i-1) / (2 (1+u)),   Q_2i+1 = ((1+2u) P_i + P_i+1) / (2 (1+u)),

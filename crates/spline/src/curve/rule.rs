@@ -2,9 +2,8 @@
 
 use super::Ends;
 
-/// A rule of one dimension in terms of rows: row `scale i + c` of the result is the sum of `weight` times
-/// row `i + offset` over the taps `(offset, weight)` of class c, with as many classes as the result is
-/// finer.
+/// A rule of one dimension in terms of rows: row `scale i + c` of the result is the sum of `weight` times row
+/// `i + offset` over the taps `(offset, weight)` of class c, with as many classes as the result is finer.
 ///
 /// Rows of odd orders sit half a step behind their number; an average leads from one kind to the other.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,9 +61,9 @@ pub(super) fn shift(order: usize) -> f64 {
     if order.is_multiple_of(2) { 0.0 } else { 0.5 }
 }
 
-/// The rules of one level of order k with tension u: for odd orders corner cutting and k-3 averages, for
-/// even orders the same product as midpoints, a smoothing with tension and (k-4)/2 without. They are those
-/// of the generalised surface scheme at regular points.
+/// The rules of one level of order k with tension u: for odd orders corner cutting and k-3 averages, for even
+/// orders the same product as midpoints, a smoothing with tension and (k-4)/2 without. They are those of the
+/// generalised surface scheme at regular points.
 pub fn rules(order: usize, u: f64) -> Vec<Rule> {
     if order.is_multiple_of(2) {
         let mut rules = vec![Rule::midpoint(), Rule::smoothing(u)];

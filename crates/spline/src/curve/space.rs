@@ -9,15 +9,14 @@
 //! u > 1         1, t, .., t^(k-3), cosh w t, sinh w t
 //! ```
 //!
-//! and combining the basis with samples of such a function g at the control points' parameters is
-//! convolution with it (the conditions of Strang and Fix, 1973). So a function f of the space has control
-//! points `g(p_i)`, where g is of the space too:
+//! and combining the basis with samples of such a function g at the control points' parameters is convolution
+//! with it (the conditions of Strang and Fix, 1973). So a function f of the space has control points
+//! `g(p_i)`, where g is of the space too:
 //!
 //! * `e^(i w t)` is multiplied by the basis's Fourier transform at w, `u (sin(w/2) / (w/2))^(k-3)`, and is
 //!   divided by it (`sinh` for `u > 1`). At `u = 0` the factor is zero: there the points of both functions
 //!   are alternating signs.
-//! * For polynomials the convolution is `f = sum over m of (-1)^m mu_m / m! g^(m)` with the moments mu of
-//! the
+//! * For polynomials the convolution is `f = sum over m of (-1)^m mu_m / m! g^(m)` with the moments mu of the
 //!   basis: a triangular system. The series of moments is that of the hat (by quadrature) times
 //!   `(sinh(x/2) / (x/2))^(k-2)`; no term is negative for `u >= 0`.
 
@@ -44,8 +43,8 @@ pub struct Space {
     tension: Tension,
 }
 
-/// How far a closed polygon's functions may be from periodic, relative to their values: the period is `w`,
-/// an arc cosine.
+/// How far a closed polygon's functions may be from periodic, relative to their values: the period is `w`, an
+/// arc cosine.
 const PERIODIC: f64 = 1e-12;
 
 impl Space {

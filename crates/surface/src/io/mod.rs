@@ -70,8 +70,8 @@ pub(crate) struct Lines {
 }
 
 impl MeshFile {
-    /// The line of the file, from 1, on which the cause of a defect stands: the mark, the face, the last
-    /// face that takes part, or the vertex.
+    /// The line of the file, from 1, on which the cause of a defect stands: the mark, the face, the last face
+    /// that takes part, or the vertex.
     pub fn line(&self, defect: &Defect) -> Option<u32> {
         use crate::DefectKind::{BadMark, NoSuchEdge};
         let marks = matches!(defect.kind, NoSuchEdge | BadMark);

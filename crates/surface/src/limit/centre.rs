@@ -200,8 +200,8 @@ fn block(matrix: &[Row]) -> Block<f64> {
     Block::Real(Matrix::from_fn(matrix.len(), matrix.len(), weight))
 }
 
-/// The left eigenvector of 1, by powers of the transpose: all others vanish, the slowest like the
-/// subdominant eigenvalue.
+/// The left eigenvector of 1, by powers of the transpose: all others vanish, the slowest like the subdominant
+/// eigenvalue.
 fn limit(matrix: &[Row]) -> Vec<f64> {
     let mut weights = vec![0.0; matrix.len()];
     weights[0] = 1.0;

@@ -161,8 +161,7 @@ impl<'s, 'r> Evaluator<'s, 'r> {
         descend(surface, node, s, t, scale, DEEPEST)
     }
 
-    /// The half-edge of the base that a place counts from, the parameters there, and how much finer they
-    /// are.
+    /// The half-edge of the base that a place counts from, the parameters there, and how much finer they are.
     fn located(&self, place: Place) -> Result<(u32, f64, f64, f64), Error> {
         let control = &self.surface.control;
         let size = control.face(self.face as usize).len() as u32;

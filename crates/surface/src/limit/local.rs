@@ -289,8 +289,7 @@ impl Local {
         self.mesh.features.largest_finite_sharpness() > 0.0
     }
 
-    /// The faces around the corner of the half-edge between sharp edges, and whether the way round is
-    /// closed.
+    /// The faces around the corner of the half-edge between sharp edges, and whether the way round is closed.
     fn sector(&self, half: u32) -> (usize, bool) {
         let source = self.source();
         let vertex = self.topology.origin(half);

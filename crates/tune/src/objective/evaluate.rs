@@ -3,16 +3,16 @@
 //!
 //! Two passes over the Gauss points. The first computes Hessians and Jacobians and, by summing them, the
 //! fitted second derivatives; the second the weights, which depend on the fit, and the squared errors. With
-//! `J` the Jacobian (area per parameter area), `A = sum J` over the points with their quadrature weights,
-//! and `q` the weighted squared error at a point,
+//! `J` the Jacobian (area per parameter area), `A = sum J` over the points with their quadrature weights, and
+//! `q` the weighted squared error at a point,
 //!
 //! ```text
 //! fit = rho <h>,  E = <q>,  <f> = sum J f / A
 //! dE = ( sum [ dJ (q - E) + J q_h dh ] + (sum J q_fit) dfit ) / A
 //! ```
 //!
-//! and `dfit` alike. `dh` is known in closed form: Hessians are linear in the height's coefficients, and
-//! with respect to the corner radius, which moves (x, y), they are transported (see `jet`). So E costs one
+//! and `dfit` alike. `dh` is known in closed form: Hessians are linear in the height's coefficients, and with
+//! respect to the corner radius, which moves (x, y), they are transported (see `jet`). So E costs one
 //! evaluation and one adjoint of the error, whatever the number of coefficients.
 
 use super::fields::{Block, Derivatives, Fields, Turns};
@@ -164,8 +164,8 @@ impl<const R: usize> Moment<R> {
         rates: [Lanes::ZERO; R],
     };
 
-    /// The fit `factor * value / area` and its derivatives; the first rate is that with respect to the
-    /// corner radius.
+    /// The fit `factor * value / area` and its derivatives; the first rate is that with respect to the corner
+    /// radius.
     fn fit<const C: usize>(&self, factor: f64, area: f64, area_rate: f64) -> Slope<C> {
         let value = factor * self.value.sum() / area;
         Slope {

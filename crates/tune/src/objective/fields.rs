@@ -13,9 +13,9 @@
 //! complex, which makes eleven real fields. At N = 4 block 2 is diagonal and `Z = Z0 + Z1` carries its two
 //! modes as real and imaginary part.
 //!
-//! **Frame.** Coordinates are turned so that the bisector of sector 0 is the x axis: then mirroring sector
-//! 0 at its bisector conjugates every mode, and half a sector suffices. Sector i is the image under the
-//! turn by `phi_i = (2i+1) pi/N`, where the modes are `exp(i phi) (x + i y)` and `exp(2 i phi) Z`.
+//! **Frame.** Coordinates are turned so that the bisector of sector 0 is the x axis: then mirroring sector 0
+//! at its bisector conjugates every mode, and half a sector suffices. Sector i is the image under the turn by
+//! `phi_i = (2i+1) pi/N`, where the modes are `exp(i phi) (x + i y)` and `exp(2 i phi) Z`.
 //!
 //! **Domain.** The patches `[p,p+1] x [q,q+1]` with max(p,q) = 2 or 3 form the annulus Omega_0; they are the
 //! innermost ones that are regular bicubic and whose images under lambda^m tile the rest. Of each mirrored
@@ -213,9 +213,9 @@ pub(super) struct Turn {
     pub square: Complex<f64>,
 }
 
-/// The `N / gcd(N, 4)` classes of sectors that differ in `t`, all of the same size. Sectors come in
-/// mirrored pairs, so the classes are real or conjugate in pairs, of which the one with the positive
-/// imaginary part is listed.
+/// The `N / gcd(N, 4)` classes of sectors that differ in `t`, all of the same size. Sectors come in mirrored
+/// pairs, so the classes are real or conjugate in pairs, of which the one with the positive imaginary part is
+/// listed.
 #[derive(Clone, Debug)]
 pub(super) struct Turns {
     /// t = 1 or t = -1.

@@ -1,11 +1,10 @@
 //! Derivatives of a map's height over its own (x, y), and how they move when (x, y) moves.
 //!
-//! A Hessian is split by spin into half its trace `T` and the complex `S = (z_xx - z_yy)/2 + i z_xy`: under
-//! a turn of the coordinates by phi, T stays and S is multiplied by `exp(2 i phi)`.
+//! A Hessian is split by spin into half its trace `T` and the complex `S = (z_xx - z_yy)/2 + i z_xy`: under a
+//! turn of the coordinates by phi, T stays and S is multiplied by `exp(2 i phi)`.
 //!
-//! **Chain rule.** With the inverse Jacobian `u_x, u_y, v_x, v_y`, `z_x = z_u u_x + z_v v_x`, and the
-//! Hessian is the parameter Hessian of `z - z_x x - z_y y` (z_x, z_y held fixed) pulled back by the inverse
-//! Jacobian.
+//! **Chain rule.** With the inverse Jacobian `u_x, u_y, v_x, v_y`, `z_x = z_u u_x + z_v v_x`, and the Hessian
+//! is the parameter Hessian of `z - z_x x - z_y y` (z_x, z_y held fixed) pulled back by the inverse Jacobian.
 //!
 //! **Transport.** Let (x, y) move with velocity field V while z stays attached to the parameters. At a fixed
 //! parameter

@@ -6,8 +6,8 @@
 use eigenring_spline::{BigRational, Same, Scalar};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// Points per block: what one register of the baseline of x86-64 and of aarch64 holds. Wider blocks have
-/// been measured and lose to the spilling of registers.
+/// Points per block: what one register of the baseline of x86-64 and of aarch64 holds. Wider blocks have been
+/// measured and lose to the spilling of registers.
 pub(super) const WIDTH: usize = 2;
 
 /// One number for each of [`WIDTH`] points.

@@ -1,8 +1,7 @@
 //! The squared error of a map over all annuli, and the cup's with weight and adjoint.
 //!
 //! On annulus m the Hessian is `s^m` times that on Omega_0 and areas are `lambda^{2m}` times smaller. With
-//! `p = lambda^2` the sums over m are geometric; a component h of the Hessian with fitted value a
-//! contributes
+//! `p = lambda^2` the sums over m are geometric; a component h of the Hessian with fitted value a contributes
 //!
 //! ```text
 //! sum_m p^m (s^m h - a)^2 = c0 [ (a - rho h)^2 + kappa h^2 ]

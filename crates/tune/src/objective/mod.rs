@@ -11,15 +11,13 @@
 //! ```
 //!
 //! with a, b, c the best constants without the weight, and w_i (see `weight`) between 1 and n^2 where the
-//! Gauss curvature has the wrong sign. Omega is a disc of self-similar annuli lambda^m Omega_0; its
-//! integrals are geometric series over those of the regular annulus Omega_0 (see `maps`), computed by Gauss
-//! quadrature.
+//! Gauss curvature has the wrong sign. Omega is a disc of self-similar annuli lambda^m Omega_0; its integrals
+//! are geometric series over those of the regular annulus Omega_0 (see `maps`), computed by Gauss quadrature.
 //!
 //! Everything that does not depend on the free weights (f2, f3) is tabulated by [`Objective::new`] for one
-//! (valence, lambda, s): eleven fields of which the maps are combinations of six coefficients (see
-//! `fields`). An evaluation then needs no linear algebra (see `evaluate`), and the gradient is exact. At N
-//! = 4, where f3 must be mu, the objective is a function of f2 alone: the given f3 is not used and its
-//! derivative is zero.
+//! (valence, lambda, s): eleven fields of which the maps are combinations of six coefficients (see `fields`).
+//! An evaluation then needs no linear algebra (see `evaluate`), and the gradient is exact. At N = 4, where f3
+//! must be mu, the objective is a function of f2 alone: the given f3 is not used and its derivative is zero.
 
 mod complex;
 #[cfg(test)]
@@ -231,8 +229,8 @@ impl Objective {
 
     /// The coefficients of the maps and their derivatives with respect to (f2, f3).
     ///
-    /// The first ring of the cup is the null vector of `(mu - f3) F = f1 V + 2 f2 E`, `(mu - g3) E = g1 V +
-    /// 2 g2 mu F`, the cross product of the two rows.
+    /// The first ring of the cup is the null vector of `(mu - f3) F = f1 V + 2 f2 E`, `(mu - g3) E = g1 V + 2
+    /// g2 mu F`, the cross product of the two rows.
     fn coefficients(&self, f2: f64, f3: f64) -> Coefficients<Dual2> {
         let constant = Dual2::constant;
         let two = Dual2::ratio(2, 1);

@@ -6,12 +6,12 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Normalisation {
-    /// Each of x, y and the three z has unit Euclidean norm over the whole five-ring neighbourhood of `30 N
-    /// + 1` points. The paper does not state its normalisation; of the natural ones this is the one that
+    /// Each of x, y and the three z has unit Euclidean norm over the whole five-ring neighbourhood of `30 N +
+    /// 1` points. The paper does not state its normalisation; of the natural ones this is the one that
     /// reproduces its optimal lambda.
     Paper,
-    /// The eigenvectors as they come: the edge neighbour on the x axis has the value 1 (for the second
-    /// saddle at N = 4, which vanishes there, the first face neighbour).
+    /// The eigenvectors as they come: the edge neighbour on the x axis has the value 1 (for the second saddle
+    /// at N = 4, which vanishes there, the first face neighbour).
     UnitRing,
 }
 

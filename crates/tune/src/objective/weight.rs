@@ -13,8 +13,8 @@
 //! w = (k + S) / (k + s) = n^2 (s - k) / (S - k),    dw/dk = w (s - S) / (s S)
 //! ```
 //!
-//! where the first form is free of cancellation for k >= 0 and the second for k < 0. If ac = b^2 exactly, k
-//! = 0 is passed in and w = n, the limit.
+//! where the first form is free of cancellation for k >= 0 and the second for k < 0. If ac = b^2 exactly, k =
+//! 0 is passed in and w = n, the limit.
 
 /// The weight function with given epsilon and n.
 #[derive(Clone, Copy, Debug)]

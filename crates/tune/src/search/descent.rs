@@ -190,8 +190,8 @@ impl<F: Function> Walk<'_, F> {
     }
 }
 
-/// The symmetric rank-one update: the smallest change in rank that makes `H step` the change of the
-/// gradient. It is left out where it would divide by almost nothing (Nocedal and Wright 2006, Eq. 6.26).
+/// The symmetric rank-one update: the smallest change in rank that makes `H step` the change of the gradient.
+/// It is left out where it would divide by almost nothing (Nocedal and Wright 2006, Eq. 6.26).
 fn rank_one(hessian: Hessian, step: [f64; 2], old: [f64; 2], new: [f64; 2]) -> Hessian {
     let [hxx, hxy, hyy] = hessian;
     let miss = [

@@ -4,8 +4,8 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The function is finite at no starting point. For the objective this happens near lambda = 1, where
-    /// the natural configurations of all feasible stencils fold over.
+    /// The function is finite at no starting point. For the objective this happens near lambda = 1, where the
+    /// natural configurations of all feasible stencils fold over.
     #[error(
         "at N = {valence}, lambda = {lambda} the objective is finite at none of {points} starting points: accepted is a smaller lambda (0.15 to 0.9 is tabulated)"
     )]

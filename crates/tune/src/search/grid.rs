@@ -33,8 +33,8 @@ impl Grid {
         self.rows.iter().flatten().map(Vec::len).sum()
     }
 
-    /// Where to start, by rising value. A grid minimum is not above its up to four neighbours, of which
-    /// equal ones that come earlier count as lower.
+    /// Where to start, by rising value. A grid minimum is not above its up to four neighbours, of which equal
+    /// ones that come earlier count as lower.
     pub fn starts(&self, starts: Starts) -> Vec<[f64; 2]> {
         let mut chosen = Vec::new();
         for (i, row) in self.rows.iter().enumerate() {

@@ -8,8 +8,7 @@ use super::ActiveBound;
 use super::frame::{Arc, Frame, Side};
 use eigenring_scheme::lambda::Constraint;
 
-/// Bounds nearer than this, in units of the domain, are active. Descents put optima on bounds up to
-/// rounding.
+/// Bounds nearer than this, in units of the domain, are active. Descents put optima on bounds up to rounding.
 const ACTIVE: f64 = 1e-9;
 
 /// The conditions at one point.

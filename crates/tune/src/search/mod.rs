@@ -1,8 +1,8 @@
 //! Minima of a smooth function over the feasible domain of one plane.
 //!
-//! Tuning at one lambda is a problem in two variables (Ma, Wang and Ma 2023, Algorithm 1): minimise E(f2,
-//! f3) over a [`Domain`], which has curved sides with corners, is about 1e-4 wide in f3 where s > 1, and at
-//! N = 3 has a hole. At many lambda the optimum lies on a side or in a corner. The search has two stages.
+//! Tuning at one lambda is a problem in two variables (Ma, Wang and Ma 2023, Algorithm 1): minimise E(f2, f3)
+//! over a [`Domain`], which has curved sides with corners, is about 1e-4 wide in f3 where s > 1, and at N = 3
+//! has a hole. At many lambda the optimum lies on a side or in a corner. The search has two stages.
 //!
 //! 1. **Starts.** E is evaluated at the middles of 10 x 10 cells of the domain; a descent starts from each
 //!    local minimum of this grid ([`Starts::Grid`]) or from every point of it ([`Starts::Full`]).
@@ -15,9 +15,9 @@
 //! Every point at which E is evaluated lies in the domain, up to rounding of its bounds. Where E has no
 //! finite value it counts as infinitely large.
 //!
-//! Lengths are measured in units of the domain (`frame.rs`): f3 in its range, f2 in its longest interval.
-//! The first-order conditions (Karush, Kuhn and Tucker) are reported with each [`Optimum`]. Nothing is
-//! random; results depend on the input only.
+//! Lengths are measured in units of the domain (`frame.rs`): f3 in its range, f2 in its longest interval. The
+//! first-order conditions (Karush, Kuhn and Tucker) are reported with each [`Optimum`]. Nothing is random;
+//! results depend on the input only.
 
 mod descent;
 mod error;
@@ -76,9 +76,9 @@ impl Starts {
 pub struct ActiveBound {
     /// Which one.
     pub constraint: Constraint,
-    /// How fast the optimal value rises when the bound moves into the domain: by f2 for the curves that
-    /// bound f2 at a given f3, by f3 for the ends of its range. Never negative; zero if the bound does not
-    /// hold the optimum back.
+    /// How fast the optimal value rises when the bound moves into the domain: by f2 for the curves that bound
+    /// f2 at a given f3, by f3 for the ends of its range. Never negative; zero if the bound does not hold the
+    /// optimum back.
     pub multiplier: f64,
 }
 
@@ -109,8 +109,8 @@ impl Optimum {
 /// All local minima that were found, and what it cost.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Search {
-    /// The distinct local minima by rising value; at least one. Two are the same if they lie within
-    /// [`MERGE`] of each other.
+    /// The distinct local minima by rising value; at least one. Two are the same if they lie within [`MERGE`]
+    /// of each other.
     pub optima: Vec<Optimum>,
     /// Points of the grid.
     pub starts: usize,

@@ -9,13 +9,12 @@
 //! For a *working set* W of independent bounds with non-negative multipliers u at the projection v of d onto
 //! `c_i . v = h_i, i in W`:
 //!
-//! 1. Take the most violated bound p; if there is none, v is optimal. 2. With `z` the part of `c_p`
-//! orthogonal to the working normals and `c_p - z = sum_j r_j c_j`, the move `v
+//! 1. Take the most violated bound p; if there is none, v is optimal.
+//! 2. With `z` the part of `c_p` orthogonal to the working normals and `c_p - z = sum_j r_j c_j`, the move `v
 //!    += t z, u_j -= t r_j, u_p += t` keeps `v - d = sum_j u_j c_j` and the working equalities. Take the
 //!    shorter of the full step `t = (h_p - c_p . v)/|z|^2`, after which p is met, and the longest step with
 //!    `u >= 0`.
-//! 3. After a full step add p to W and go to 1; otherwise drop the bound whose multiplier vanished and
-//! repeat
+//! 3. After a full step add p to W and go to 1; otherwise drop the bound whose multiplier vanished and repeat
 //!    2. If there is neither (`z = 0`, all `r_j <= 0`), bound p contradicts the bounds with `r_j < 0`: the
 //!    problem is infeasible.
 //!

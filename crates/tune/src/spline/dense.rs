@@ -84,8 +84,7 @@ impl Frame {
     /// An orthonormal basis of what is orthogonal to the frame.
     pub(super) fn complement(&self) -> Vec<Vec<f64>> {
         let n = self.columns.nrows();
-        // a column of zeros is left as it is: the remaining columns of the product of reflections complete
-        // it
+        // a column of zeros is left as it is: the remaining columns of the product of reflections complete it
         let square = self.columns.clone().resize_horizontally(n, 0.0);
         let q = square.qr().q();
         (self.len()..n).map(|j| q.column(j).iter().copied().collect()).collect()

@@ -2,8 +2,8 @@
 //!
 //! Minimise `sum_i w_i (f(lambda_i) - y_i)^2` over the coefficients of f, subject to
 //!
-//! * `f(lambda) = y` at interpolation points, exactly; * all derivatives below the degree continuous at the
-//! *smooth* knots. The fit is then the one with a simple
+//! * `f(lambda) = y` at interpolation points, exactly;
+//! * all derivatives below the degree continuous at the *smooth* knots. The fit is then the one with a simple
 //!   knot there, in the coefficients that inserting it until it is multiple would give;
 //! * lower and upper bounds at given lambdas.
 //!
@@ -12,8 +12,8 @@
 //! afterwards on the problem as posed (`kkt` page).
 //!
 //! If a direction of the spline space is not determined by samples and equalities (a short knot interval
-//! without samples) a multiple of the curvature energy `int f''^2` is added, small against the samples'
-//! part, and reported as [`Fit::energy`]. Otherwise the objective is the sum above and nothing else.
+//! without samples) a multiple of the curvature energy `int f''^2` is added, small against the samples' part,
+//! and reported as [`Fit::energy`]. Otherwise the objective is the sum above and nothing else.
 
 use super::active_set::{self, Inequality, Stuck};
 use super::error::{FitError, Side};

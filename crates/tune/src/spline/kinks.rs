@@ -2,8 +2,8 @@
 //!
 //! The tuned f2 and f3 are smooth in lambda as long as the same bounds are active at the optimum, and s is
 //! given by the same formula. Where the active set changes between two neighbouring samples a kink lies
-//! between them, and both samples are candidates; the kinks of s are candidates where they are. A valence
-//! has more kinks than the structure of Eq. 21 has triple knots: lambda_c is lambda_l, one goes to its left
+//! between them, and both samples are candidates; the kinks of s are candidates where they are. A valence has
+//! more kinks than the structure of Eq. 21 has triple knots: lambda_c is lambda_l, one goes to its left
 //! (lambda_b), one to its right (lambda_d). The pair is chosen whose unconstrained least-squares splines of
 //! f2 and f3 leave the smallest residual.
 //!

@@ -1,5 +1,5 @@
-//! Is it the constrained least-squares optimum? The Karush-Kuhn-Tucker conditions, measured on the problem
-//! as it was posed.
+//! Is it the constrained least-squares optimum? The Karush-Kuhn-Tucker conditions, measured on the problem as
+//! it was posed.
 //!
 //! x minimises the convex objective `1/2 |M x - y|^2` under `E x = e`, `A x >= b` if and only if there are
 //! multipliers with `M^T (M x - y) = E^T nu + A^T u`, `u >= 0` and `u_i (A x - b)_i = 0`. Nothing here comes

@@ -1,11 +1,11 @@
 //! Least squares under equalities, as the distance from a point.
 //!
-//! `min 1/2 |M x - y|^2` subject to `E x = e`, with n unknowns. Let the columns of Z span the null space of
-//! E and let x0 be the shortest solution of the equalities: `x = x0 + Z t` meets them to rounding whatever
-//! t is. With `M Z = Q R`, `v = R t` and `d = Q^T (y - M x0)`, the objective is `1/2 |v - d|^2` and a
-//! constant: the unconstrained optimum is `v = d`, and inequalities `a . x >= b` become `c . v >= b - a .
-//! x0` with `c = R^-T Z^T a`. M enters through an orthogonal factorisation, never through `M^T M`, whose
-//! condition is the square.
+//! `min 1/2 |M x - y|^2` subject to `E x = e`, with n unknowns. Let the columns of Z span the null space of E
+//! and let x0 be the shortest solution of the equalities: `x = x0 + Z t` meets them to rounding whatever t
+//! is. With `M Z = Q R`, `v = R t` and `d = Q^T (y - M x0)`, the objective is `1/2 |v - d|^2` and a constant:
+//! the unconstrained optimum is `v = d`, and inequalities `a . x >= b` become `c . v >= b - a . x0` with `c =
+//! R^-T Z^T a`. M enters through an orthogonal factorisation, never through `M^T M`, whose condition is the
+//! square.
 
 use super::dense::{Frame, add_scaled, dot};
 
@@ -151,8 +151,8 @@ impl<'a> Factored<'a> {
         self.independent.iter().map(|&k| e[k] - self.equalities[k].dot(x))
     }
 
-    /// One step of refinement: adds the shortest vector whose products with the frame's vectors are the
-    /// given defects.
+    /// One step of refinement: adds the shortest vector whose products with the frame's vectors are the given
+    /// defects.
     fn restore(&self, x: &mut [f64], frame: &Frame, defects: &[f64]) {
         let step = frame.combine(&frame.solve_transposed(defects));
         add_scaled(x, 1.0, &step);

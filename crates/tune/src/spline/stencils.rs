@@ -36,8 +36,8 @@ impl Band {
     };
 }
 
-/// The admissible stencils along lambda. At valence 4, where f3 is not free, the band of f3 is
-/// [`Band::FREE`] and that of f2 does not depend on f3.
+/// The admissible stencils along lambda. At valence 4, where f3 is not free, the band of f3 is [`Band::FREE`]
+/// and that of f2 does not depend on f3.
 pub trait StencilBounds {
     /// The admissible stencils at one lambda; made once for each.
     type Domain;
@@ -62,11 +62,11 @@ pub struct StencilFit {
 
 /// Fits f3 and f2.
 ///
-/// `kinks` says which of the triple knots b, c, d are kinks; at the others the splines are twice
-/// continuously differentiable. The points `fixed` = (lambda, f2, f3) are interpolated. Bounds are demanded
-/// at all samples, at all lambdas of `grid` and at the fixed points. Between them they hold up to half the
-/// squared spacing times the curvature, so the bounds given here need a margin against those that are to
-/// hold everywhere.
+/// `kinks` says which of the triple knots b, c, d are kinks; at the others the splines are twice continuously
+/// differentiable. The points `fixed` = (lambda, f2, f3) are interpolated. Bounds are demanded at all
+/// samples, at all lambdas of `grid` and at the fixed points. Between them they hold up to half the squared
+/// spacing times the curvature, so the bounds given here need a margin against those that are to hold
+/// everywhere.
 ///
 /// # Errors
 /// Those of [`FitProblem::solve`].

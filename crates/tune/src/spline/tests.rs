@@ -215,8 +215,7 @@ fn the_constrained_optimum_cannot_be_improved() {
         assert!((fit.spline.value(active.lambda).unwrap() - bound).abs() < 1e-14);
     }
 
-    // random moves, made feasible by shrinking: equalities by projection, bounds by the longest feasible
-    // step
+    // random moves, made feasible by shrinking: equalities by projection, bounds by the longest feasible step
     let row = dense_basis(&space, 0.4);
     let basis_at = |span| space.basis(span, KNOTS.b);
     let (left, right) = (

@@ -19,8 +19,8 @@ use admissible::Admissible;
 use eigenring_scheme::lambda::{Entry, LambdaKnots, PAPER_TABLE_1, PaperRow, Relaxation};
 use serde::{Deserialize, Serialize};
 
-/// The relative margin with which the splines keep within the eigenvalue bounds: half of that of the
-/// samples, so that a spline may pass between them.
+/// The relative margin with which the splines keep within the eigenvalue bounds: half of that of the samples,
+/// so that a spline may pass between them.
 pub const SPLINE_MARGIN: f64 = 1e-6;
 
 /// Lambdas in equal steps, besides the samples and the kinks of s, at which the splines' bounds are imposed
@@ -401,8 +401,8 @@ fn steps(range: &Range, relaxation: &Relaxation, count: usize) -> Vec<f64> {
     lambdas
 }
 
-/// Fits with bounds at every lambda of a fine grid, though only those at a coarser one and at those that
-/// were missed are imposed: the exchange method of semi-infinite programming.
+/// Fits with bounds at every lambda of a fine grid, though only those at a coarser one and at those that were
+/// missed are imposed: the exchange method of semi-infinite programming.
 fn fit_feasible(
     knots: &LambdaKnots,
     kinks: [bool; 3],

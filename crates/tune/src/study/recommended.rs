@@ -1,11 +1,10 @@
 //! The end of the recommended region.
 //!
-//! Ma, Wang and Ma (2023, section 4.4) recommend lambda up to `lambda_r2`, beyond which quadrilaterals of
-//! the second ring of the natural configuration may overlap or be concave; they give it as empirical. Here
-//! it is the smallest lambda above lambda_C* at which a corner of a quadrilateral between rings 1 and 2
-//! reaches 180 degrees: where the cross product of two consecutive edges vanishes. A quadrilateral with
-//! four positive corners is convex, and convex quadrilaterals around the centre, each turning the same way,
-//! do not overlap.
+//! Ma, Wang and Ma (2023, section 4.4) recommend lambda up to `lambda_r2`, beyond which quadrilaterals of the
+//! second ring of the natural configuration may overlap or be concave; they give it as empirical. Here it is
+//! the smallest lambda above lambda_C* at which a corner of a quadrilateral between rings 1 and 2 reaches 180
+//! degrees: where the cross product of two consecutive edges vanishes. A quadrilateral with four positive
+//! corners is convex, and convex quadrilaterals around the centre, each turning the same way, do not overlap.
 
 use super::Error;
 use eigenring_scheme::lambda::{Entry, Relaxation};
@@ -52,9 +51,8 @@ pub(super) fn end(entry: &Entry, end: f64) -> Result<f64, Error> {
     Ok(end)
 }
 
-/// The smallest cross product of consecutive edges over the corners of the quadrilaterals between rings 1
-/// and 2 of the natural configuration, with `E_0 = (1, 0)`: positive if all are convex and turn
-/// anticlockwise.
+/// The smallest cross product of consecutive edges over the corners of the quadrilaterals between rings 1 and
+/// 2 of the natural configuration, with `E_0 = (1, 0)`: positive if all are convex and turn anticlockwise.
 ///
 /// # Errors
 /// Those of the eigenvector of `lambda` in block 1; [`eigenring_spectral::Error::NotSymmetric`] for schemes

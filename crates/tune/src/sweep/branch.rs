@@ -1,10 +1,10 @@
 //! The branch of local minima through the global optimum.
 //!
 //! From one lambda to the next the branch is followed by predictor and corrector: (f2, f3) is extrapolated
-//! linearly, and a descent starts there. A local minimum moves continuously with lambda, at kinks with a
-//! jump in velocity, so a correction that is long for its step of lambda is suspected of having changed
-//! basins, and the step is halved until corrections are short. Where a basin ends (it merges with a saddle
-//! point) no step is small enough: the sample is marked, and the branch goes on from where the descent led.
+//! linearly, and a descent starts there. A local minimum moves continuously with lambda, at kinks with a jump
+//! in velocity, so a correction that is long for its step of lambda is suspected of having changed basins,
+//! and the step is halved until corrections are short. Where a basin ends (it merges with a saddle point) no
+//! step is small enough: the sample is marked, and the branch goes on from where the descent led.
 
 use super::{Error, Minimum, Options, Problem, Sample};
 use crate::search;
@@ -73,8 +73,8 @@ impl Point {
 }
 
 /// A correction of (f2, f3) by more than `SPEED` times the step of lambda plus `SLACK` is suspicious.
-/// Velocities change by less than 1 over a step, except at kinks, where steps are halved a few times in
-/// vain. At N = 3 basins are 0.03 and more apart.
+/// Velocities change by less than 1 over a step, except at kinks, where steps are halved a few times in vain.
+/// At N = 3 basins are 0.03 and more apart.
 const SPEED: f64 = 1.0;
 
 /// See [`SPEED`].

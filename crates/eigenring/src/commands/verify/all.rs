@@ -45,8 +45,8 @@ pub fn make(valences: &[usize], out: &Path, format: Format) -> Result<ExitCode, 
     Ok(ExitCode::SUCCESS)
 }
 
-/// The certificate of a range: what an interrupted run has left of it, if that is of the same curve, or a
-/// new one.
+/// The certificate of a range: what an interrupted run has left of it, if that is of the same curve, or a new
+/// one.
 fn prove(range: &Ranged, resume: &Path) -> Result<RangeCertificate, Error> {
     let path = resume.join(&range.file);
     if let Ok(text) = files::read(&path)

@@ -154,8 +154,7 @@ impl Domain {
         let f3_distance = (f3 - nearest).abs();
         if f3_distance.is_nan() || f3_distance > tolerance {
             let end = if f3 > upper.f3 { upper } else { lower };
-            // where the domain ends in a point, the bound of f2 that is nearer to the given one names the
-            // end
+            // where the domain ends in a point, the bound of f2 that is nearer to the given one names the end
             let edge = end.edge.or_else(|| self.nearest_end(f2, end.f3).map(|(c, _)| c));
             return refuse(edge.unwrap_or(Constraint::Theta), "f3", f3_distance);
         }

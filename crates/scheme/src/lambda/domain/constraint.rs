@@ -29,8 +29,7 @@ pub enum Constraint {
     Centre,
     /// The face's half angle at F is at most `pi/2 - pi/(2N)`; equivalent to a corner radius of at least 1.
     Theta,
-    /// Both eigenvalues of block floor(N/2) lie in [-m, m]; `g3 >= -m` for even N and for the paper's
-    /// bounds.
+    /// Both eigenvalues of block floor(N/2) lie in [-m, m]; `g3 >= -m` for even N and for the paper's bounds.
     LastBlock,
     /// The same for the blocks between, the second eigenvalues of blocks 1 and 2 included.
     InnerBlocks,

@@ -6,8 +6,8 @@ impl Domain {
     /// Feasible starting points for a search: `count` rows of f3, at the middles of as many equal parts of
     /// its range, and on each feasible interval of f2 in a row `count` points, at the middles of its parts.
     /// So there are `count^2` points, at N = 3 up to twice as many (two intervals), at N = 4 only `count`
-    /// (one row). Points on the boundary are left to searches along its edges and curves. Ordered by f3,
-    /// then f2.
+    /// (one row). Points on the boundary are left to searches along its edges and curves. Ordered by f3, then
+    /// f2.
     pub fn starts(&self, count: usize) -> Vec<[f64; 2]> {
         let middles = || (0..count).map(|i| (i as f64 + 0.5) / count as f64);
         let rows = if self.plane.valence == 4 { count.min(1) } else { count };
@@ -27,9 +27,9 @@ impl Domain {
         (lower + v * (upper - lower)).clamp(lower, upper)
     }
 
-    /// The image (f2, f3) of a point (u, v) of the unit square: v is the fraction of the range of f3, u
-    /// that of the interval of f2 with the given number (0 or, where there are two, 1). `None` if there is
-    /// no such interval.
+    /// The image (f2, f3) of a point (u, v) of the unit square: v is the fraction of the range of f3, u that
+    /// of the interval of f2 with the given number (0 or, where there are two, 1). `None` if there is no such
+    /// interval.
     pub fn point(&self, u: f64, v: f64, interval: usize) -> Option<[f64; 2]> {
         let f3 = self.f3_at(v);
         let interval = *self.f2_intervals(f3).get(interval)?;

@@ -25,8 +25,8 @@ fn structure(intervals: &[F2Interval]) -> Structure {
 }
 
 impl Domain {
-    /// The strips, ascending in f3. Their ends are found to a few rounding units; strips that lie between
-    /// two neighbouring rows of 256 with equal structure are not seen.
+    /// The strips, ascending in f3. Their ends are found to a few rounding units; strips that lie between two
+    /// neighbouring rows of 256 with equal structure are not seen.
     pub fn strips(&self) -> Vec<Strip> {
         let at = |f3: f64| structure(&self.f2_intervals(f3));
         let [low, high] = self.f3.map(|end| end.f3);

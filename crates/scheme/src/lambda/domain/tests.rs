@@ -6,8 +6,8 @@ use crate::lambda::Relaxation;
 use approx::assert_relative_eq;
 use std::f64::consts::PI;
 
-/// The smallest slack of the definitions at a point: weights, eigenvalues of the Fourier blocks, angle of
-/// the natural configuration. Uses nothing of the domain, and of the plane only its stencil.
+/// The smallest slack of the definitions at a point: weights, eigenvalues of the Fourier blocks, angle of the
+/// natural configuration. Uses nothing of the domain, and of the plane only its stencil.
 fn direct(plane: &Plane<f64>, bounds: Bounds, margin: f64, f2: f64, f3: f64) -> f64 {
     let n = plane.valence;
     let stencil = plane.stencil(f2, f3);
@@ -268,8 +268,7 @@ fn slopes_are_those_of_central_differences() {
                         continue;
                     };
                     let difference = (right - left) / (2.0 * step);
-                    // truncation is of the order of (step/range)^2, far from the ends; rounding of
-                    // 1e-16/step
+                    // truncation is of the order of (step/range)^2, far from the ends; rounding of 1e-16/step
                     let tolerance = 1e-4 * slope.abs() + 1e-14 / step;
                     assert!(
                         (slope - difference).abs() < tolerance,

@@ -5,8 +5,8 @@ use crate::{Exact, Scalar};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
 
-/// The most work of all formulas of a scheme at one valence, in products of machine words, more or less:
-/// less than a second.
+/// The most work of all formulas of a scheme at one valence, in products of machine words, more or less: less
+/// than a second.
 const MAX_WORK: usize = 1_000_000;
 
 /// The most terms of one sum.

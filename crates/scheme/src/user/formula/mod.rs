@@ -1,8 +1,8 @@
 //! Formulas for weights: `(3 + 2*cos(2*pi*k/n))/(4*n)`.
 //!
-//! A formula is read into a [`Node`] ([`parse`](parse::parse)) and then, at a valence, evaluated as far as
-//! it goes ([`Context::evaluate`](evaluate::Context)): whatever does not depend on the level's tension or
-//! on a parameter that is left free becomes an [`Exact`](crate::Exact) number, and the rest stays a
+//! A formula is read into a [`Node`] ([`parse`](parse::parse)) and then, at a valence, evaluated as far as it
+//! goes ([`Context::evaluate`](evaluate::Context)): whatever does not depend on the level's tension or on a
+//! parameter that is left free becomes an [`Exact`](crate::Exact) number, and the rest stays a
 //! [`Residual`], which runs in every [`Scalar`](crate::Scalar).
 //!
 //! ```text
