@@ -1,11 +1,11 @@
 //! Exact points of the limit surface, with derivatives and curvature, anywhere.
 //!
 //! **Isolation.** The faces around a face are refined, not the mesh, until the face's support is regular, or
-//! has one irregular centre at a corner of the face and refinement reproduces it ([`local`]). **Regular**
-//! patches are bicubic B-splines, continued by reflection at boundaries and creases ([`patch`]). **Beside a
+//! has one irregular centre at a corner of the face and refinement reproduces it (`local.rs`). **Regular**
+//! patches are bicubic B-splines, continued by reflection at boundaries and creases (`patch.rs`). **Beside a
 //! centre** at depth m the control points are never multiplied out and differenced: they are kept as
 //! `1 p + lambda^m R a + T`, p the limit of the centre, a its tangents, T the rest, which is projected free
-//! of both at every level ([`centre`]). In the frame of the tangent plane, with x and y divided by `lambda^m`
+//! of both at every level (`centre.rs`). In the frame of the tangent plane, with x and y divided by `lambda^m`
 //! and z by `lambda^2m`, nothing cancels and nothing underflows down to parameters of 1e-18 and below.
 
 mod centre;
