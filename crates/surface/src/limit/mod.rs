@@ -5,8 +5,9 @@
 //! patches are bicubic B-splines, continued by reflection at boundaries and creases (`patch.rs`). **Beside a
 //! centre** at depth m the control points are never multiplied out and differenced: they are kept as
 //! `1 p + lambda^m R a + T`, p the limit of the centre, a its tangents, T the rest, which is projected free
-//! of both at every level (`centre.rs`). In the frame of the tangent plane, with x and y divided by `lambda^m`
-//! and z by `lambda^2m`, nothing cancels and nothing underflows down to parameters of 1e-18 and below.
+//! of both at every level (`centre.rs`). In the frame of the tangent plane, with x and y divided by
+//! `lambda^m` and z by `lambda^2m`, nothing cancels and nothing underflows down to parameters of 1e-18 and
+//! below.
 
 mod centre;
 mod dual;
