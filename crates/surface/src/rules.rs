@@ -2,6 +2,7 @@
 
 use crate::Error;
 use eigenring_scheme::families::{catmull_clark, catmull_clark_weights, smoothing_weights, tension_at};
+use eigenring_scheme::user::UserScheme;
 use eigenring_scheme::{Corner, Definition, Lattice, Level, Scheme, Site, Spec, Stencil};
 use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, Mutex};
@@ -103,7 +104,7 @@ impl Rules {
         let Definition::File(file) = definition else {
             return Ok(Method::Passes);
         };
-        let Some(valence) = file.valences().next() else {
+        let Some(valence) = any_valence(file) else {
             return Ok(Method::Passes);
         };
         let scheme: Scheme<f64> = file.scheme(valence)?;
@@ -118,7 +119,7 @@ impl Rules {
     /// The degree of the regular surface; `None` if it is no spline.
     pub fn degree(&self) -> Result<Option<usize>, Error> {
         let valence = match self.definition() {
-            Definition::File(file) => file.valences().next().unwrap_or(4),
+            Definition::File(file) => any_valence(file).unwrap_or(4),
             Definition::Family(_) => 4,
         };
         Ok(self.definition().inner::<f64>(valence)?.degree())
@@ -217,7 +218,7 @@ impl Rules {
         let Definition::File(file) = self.definition() else {
             return regular();
         };
-        let first = file.valences().next().unwrap_or(4);
+        let first = any_valence(file).unwrap_or(4);
         let scheme = self.scheme_of(0, first)?;
         let passes = scheme.limit().passes().iter().filter_map(|pass| {
             let line = pass.line()?.clone();
@@ -276,6 +277,11 @@ impl Rules {
         };
         Ok([weight(0, 0), weight(2, 0), weight(2, 2)])
     }
+}
+
+/// A valence that a file has rules for: the first one listed, else the first that its formulas are for.
+fn any_valence(file: &UserScheme) -> Option<usize> {
+    file.valences().next().or_else(|| file.rule().map(|(first, _)| first))
 }
 
 fn regular() -> Result<Arc<Scheme<f64>>, Error> {
