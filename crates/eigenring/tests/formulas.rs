@@ -73,7 +73,7 @@ fn parameters_are_set_in_names_and_by_option() {
         "csv",
     ]);
     assert!(
-        rows.contains("catmull-clark,5,") && rows.contains("catmull-clark,a=7/5"),
+        rows.contains("5,catmull-clark,0.") && rows.contains("catmull-clark,a=7/5"),
         "{rows}"
     );
     for (arguments, needle) in [
@@ -209,7 +209,7 @@ fn bad_formulas_are_named_with_their_place() {
     for (formula, needle) in [
         (
             "1/(n - 4)",
-            format!("line {line}, column 9: f2: division by zero at n = 4"),
+            format!("line {line}, column 10: f2: division by zero at n = 4"),
         ),
         ("1/4 + x", format!("line {line}, column 13: rule, f2: unknown name 'x'")),
         ("1/4 + 0*d1*f2", "f2 depends on itself: f2 -> f2".to_owned()),
