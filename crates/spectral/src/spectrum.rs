@@ -34,9 +34,13 @@ impl Eigenvalue {
 
     /// Whether two eigenvalues of different blocks are the same, up to rounding.
     pub fn is_close(&self, other: &Eigenvalue) -> bool {
-        let distance = (self.value.0 - other.value.0).hypot(self.value.1 - other.value.1);
-        distance <= SAME * self.modulus().max(other.modulus())
+        are_close(self.value, other.value)
     }
+}
+
+fn are_close(a: Complex<f64>, b: Complex<f64>) -> bool {
+    let size = a.0.hypot(a.1).max(b.0.hypot(b.1));
+    (a.0 - b.0).hypot(a.1 - b.1) <= SAME * size
 }
 
 /// Eigenvalues of different blocks closer than this, relatively, are the same: they come from independent
@@ -102,13 +106,24 @@ impl LocalSystem {
         for (k, block) in self.blocks().iter().enumerate() {
             let twice = self.symmetric() && k != 0 && 2 * k != n;
             let copies = 1 + usize::from(twice);
-            for (value, multiplicity, geometric) in of(k, block)? {
-                eigenvalues.push(Eigenvalue {
-                    value,
-                    fourier: self.symmetric().then_some(k),
-                    multiplicity: copies * multiplicity,
-                    geometric: geometric.map(|vectors| copies * vectors),
-                });
+            let list = of(k, block)?;
+            for &(value, multiplicity, geometric) in &list {
+                let conjugate = (value.0, -value.1);
+                let mut add = |value, index: usize, copies: usize| {
+                    eigenvalues.push(Eigenvalue {
+                        value,
+                        fourier: self.symmetric().then_some(index),
+                        multiplicity: copies * multiplicity,
+                        geometric: geometric.map(|vectors| copies * vectors),
+                    });
+                };
+                // block N-k is conjugate: without a mirror symmetry it may have a value that block k has not
+                if twice && value.1 != 0.0 && !list.iter().any(|other| are_close(other.0, conjugate)) {
+                    add(value, k, 1);
+                    add(conjugate, n - k, 1);
+                } else {
+                    add(value, k, copies);
+                }
             }
         }
         eigenvalues.sort_by(|a, b| order(a.value, b.value).then(a.fourier.cmp(&b.fourier)));
@@ -200,9 +215,18 @@ impl Spectrum {
         let pair = self.subdominant().filter(|e| e.fourier == Some(1))?;
         let (mut left, mut mu) = (vec![], f64::INFINITY);
         for index in 0..=valence / 2 {
-            let copies = 1 + usize::from(index != 0 && 2 * index != valence);
+            let twice = index != 0 && 2 * index != valence;
             let block = self.eigenvalues.iter().filter(|e| e.fourier == Some(index));
-            let mut moduli = block.flat_map(|e| std::iter::repeat_n(e.modulus(), e.multiplicity / copies));
+            // listed for this block alone if it is not real and block N-k has its conjugate
+            let alone = |e: &Eigenvalue| {
+                let conjugate = (e.value.0, -e.value.1);
+                let mut other = self.eigenvalues.iter().filter(|e| e.fourier == Some(valence - index));
+                twice && other.any(|other| are_close(other.value, conjugate))
+            };
+            let mut moduli = block.flat_map(|e| {
+                let copies = if twice && !alone(e) { 2 } else { 1 };
+                std::iter::repeat_n(e.modulus(), e.multiplicity / copies)
+            });
             let passed = match index {
                 0 => moduli.next().map(|first| (first, leading)),
                 1 => moduli.next().map(|first| (first, pair)),

@@ -130,6 +130,11 @@ impl Given {
         &self.matrix
     }
 
+    /// Whether the subdominant eigenvalue is not real, so that there is no characteristic map.
+    pub fn has_complex_lambda(&self) -> bool {
+        self.spectrum.subdominant().is_some_and(|lambda| lambda.value.1 != 0.0)
+    }
+
     /// The rotation that was found.
     pub fn rotation(&self) -> Option<&Rotation> {
         self.rotation.as_ref().map(|(rotation, _)| rotation)
@@ -160,7 +165,7 @@ impl Given {
             ));
         }
         if let Some(lambda) = self.spectrum.subdominant() {
-            if lambda.value.1 != 0.0 {
+            if self.has_complex_lambda() {
                 let (re, im) = lambda.value;
                 notes.push(format!(
                     "the subdominant eigenvalues are complex, {} +- {} i: their modulus is listed",

@@ -173,7 +173,9 @@ impl Arguments {
                 self.valence.valence,
                 numbered,
             )?;
-            match given.rotation().filter(|rotation| rotation.is_by_ring()) {
+            // what is known of schemes holds for matrices in their order, but for complex eigenvalues
+            let by_ring = given.rotation().filter(|rotation| rotation.is_by_ring());
+            match by_ring.filter(|_| !given.has_complex_lambda()) {
                 Some(rotation) => {
                     given.notes().iter().for_each(|text| note(text));
                     Ok(Answer::Scheme(Analysis::of_matrix(
