@@ -106,8 +106,16 @@ fn faults_inside_the_range_are_found() {
             "{stretches:?}"
         );
     }
-    // a pole inside the range
-    let text = text().replace("alpha = \"a/n\"", "alpha = \"a/n + 0/(c - 9/40)\"");
+    // a pole inside the range, at a place where the search looks and at one where it does not
+    let with_pole = |at: &str| text().replace("alpha = \"a/n\"", &format!("alpha = \"a/n + 0/(c - {at})\""));
+    let refused = prove(
+        input(&with_pole("9/40"), ["1/5", "1/4"]),
+        5,
+        Requirement::C1,
+        Limits::default(),
+    );
+    assert!(refused.unwrap_err().to_string().contains("division by zero"));
+    let text = with_pole("17/77");
     let certificate = prove(input(&text, ["1/5", "1/4"]), 5, Requirement::C1, Limits::default()).unwrap();
     let stretches = certificate.required(Requirement::C1);
     assert!(

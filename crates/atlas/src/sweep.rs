@@ -79,7 +79,10 @@ pub fn spectra(
     let base = file.read(Reading::default())?;
     each(progress, "values", &sweep.values(), |value| {
         let set = base.with(&[(&sweep.parameter, value.clone())]);
-        let spectrum = || Analysis::of_scheme(&set?.scheme(valence)?, rings, level);
+        let spectrum = || {
+            let set = set?;
+            Analysis::of_rules(&set.scheme(valence)?, Some(&set.scheme(valence)?), rings, level)
+        };
         let analysis = spectrum().map_err(|error| error.in_file(&file.path))?;
         Ok((value.clone(), analysis))
     })

@@ -348,6 +348,7 @@ fn help_has_examples_and_no_escape_sequences() {
             if line.contains("tables")
                 || line.contains("reproduce")
                 || line.contains("--matrix")
+                || line.contains("my.toml")
                 || line.contains("--all")
                 || line.contains("--recheck")
             {
