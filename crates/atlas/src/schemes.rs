@@ -314,7 +314,7 @@ impl SchemeName {
     pub fn definition(&self, reading: Reading) -> Result<Definition, Error> {
         match self {
             SchemeName::Spec(spec) => Ok(Definition::Family(spec.clone())),
-            SchemeName::File(file) => Ok(Definition::File(file.read(reading)?)),
+            SchemeName::File(file) => Ok(Definition::File(Box::new(file.read(reading)?))),
         }
     }
 

@@ -11,7 +11,7 @@ pub enum Definition {
     /// A registered family.
     Family(Spec),
     /// A scheme file, read and checked.
-    File(UserScheme),
+    File(Box<UserScheme>),
 }
 
 impl Definition {

@@ -126,7 +126,7 @@ impl Extended {
         let mut mantissa = [0; WORDS];
         for (i, word) in mantissa.iter_mut().enumerate() {
             let above = if i + 1 < WORDS { sum[i + 2] } else { u64::from(carry) };
-            *word = sum[i + 1] >> shift | (above << 63) * u64::from(shift);
+            *word = (sum[i + 1] >> shift) | ((above << 63) * u64::from(shift));
         }
         Extended {
             exponent: self.exponent + shift as i32,
@@ -227,7 +227,7 @@ impl Mul for Extended {
         let shift = (words[2 * WORDS - 1] >> 63 == 0) as u32;
         let mut mantissa = [0; WORDS];
         for (i, word) in mantissa.iter_mut().enumerate() {
-            *word = words[WORDS + i] << shift | (words[WORDS + i - 1] >> 63) * u64::from(shift);
+            *word = (words[WORDS + i] << shift) | ((words[WORDS + i - 1] >> 63) * u64::from(shift));
         }
         Extended {
             negative: self.negative != other.negative,

@@ -173,7 +173,7 @@ fn scheme_files_with_rules_of_their_own() {
         let file = UserScheme::parse(text, "x", Reading::Balanced).unwrap();
         let scheme: Scheme<f64> = file.scheme(5).unwrap();
         assert_eq!(scheme.fan().sectors(), 5);
-        let rules = Rules::new(Definition::File(file));
+        let rules = Rules::new(Definition::File(Box::new(file)));
         let worst = difference(&scheme, &rules, |_, _| {}, Boundary::Shrink);
         assert!(worst < 1e-13, "{text}: {worst:e}");
     }

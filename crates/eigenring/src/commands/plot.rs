@@ -274,7 +274,7 @@ impl Arguments {
             })
         };
         if self.schemes.given() {
-            return Ok(self.schemes.all()?);
+            return self.schemes.all();
         }
         match self.lambda.as_slice() {
             [] => Ok(entry.default_schemes()?),
