@@ -1,7 +1,7 @@
 //! A local matrix that somebody has, in any order of its points, with any rotation or none.
 //!
-//! With a rotation of order N ([`rotation`]) a net of Fourier index k has the values `v_j w^(k s)` at point
-//! s of orbit j, `w = exp(2 pi i/N)`, and is mapped to one of the same index by the block
+//! With a rotation of order N (module `rotation`) a net of Fourier index k has the values `v_j w^(k s)` at
+//! point s of orbit j, `w = exp(2 pi i/N)`, and is mapped to one of the same index by the block
 //!
 //! `B_k[i][j] = sum_s S[o_i(0), o_j(s)] w^(k s)`,
 //!

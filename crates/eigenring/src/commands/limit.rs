@@ -29,7 +29,7 @@ pub struct Arguments {
     /// The scheme: see 'eigenring --help'
     #[arg(long, value_name = "SPEC")]
     scheme: SchemeName,
-    /// A CSV file with columns face,sub,s,t[,corner]
+    /// A CSV file with columns `face,sub,s,t[,corner]`
     #[arg(long, value_name = "P.csv")]
     points: Option<PathBuf>,
     /// At all control vertices: one row for each fan of faces between sharp edges
