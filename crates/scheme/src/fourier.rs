@@ -2,6 +2,7 @@
 
 use crate::{Error, Net, Numbering, Scalar, Site};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Control points of Fourier index `k`: `P_i(x, y) = w^{k i} v(x, y)`, `w = exp(2 pi i / N)`; a refined
 /// point's value is its row of the block `S_k`, a complex linear form.
@@ -16,8 +17,8 @@ pub struct FourierNet<S> {
     numbering: Numbering,
     index: usize,
     mirror: bool,
-    /// `w^{k j/2}` for `j = 0 .. 2N`.
-    half_phases: Vec<Complex<S>>,
+    /// `w^{j/2}` for `j = 0 .. 2N`, shared by the nets of all indices.
+    half_turns: Arc<[Complex<S>]>,
 }
 
 /// A complex number as (real, imaginary).
@@ -81,18 +82,28 @@ impl<S: Scalar + Copy> FourierNet<S> {
         if index >= n {
             return Err(Error::FourierIndex { index, valence: n });
         }
-        let half_phases = (0..2 * n)
-            .map(|j| {
-                let (k, n) = ((index * j) as i64, 2 * n as i64);
-                (S::cos_turn(k, n), S::sin_turn(k, n))
-            })
-            .collect();
+        let of = |j: usize| {
+            let (j, n) = (j as i64, 2 * n as i64);
+            (S::cos_turn(j, n), S::sin_turn(j, n))
+        };
         Ok(FourierNet {
             numbering,
             index,
             mirror,
-            half_phases,
+            half_turns: (0..2 * n).map(of).collect(),
         })
+    }
+
+    /// The net of another Fourier index, without computing the roots of unity again.
+    ///
+    /// # Errors
+    /// [`Error::FourierIndex`] unless `index` is below the number of sectors.
+    pub fn of_index(&self, index: usize) -> Result<Self, Error> {
+        let valence = self.numbering.fan.sectors();
+        if index >= valence {
+            return Err(Error::FourierIndex { index, valence });
+        }
+        Ok(FourierNet { index, ..self.clone() })
     }
 
     /// The size of the block: points of one sector, and the centre if the index is 0 and the centre is a
@@ -124,7 +135,7 @@ impl<S: Scalar + Copy> FourierNet<S> {
 
     /// `w^{k j / 2}`.
     fn half_phase(&self, j: usize) -> Complex<S> {
-        self.half_phases[j % self.half_phases.len()]
+        self.half_turns[self.index * j % self.half_turns.len()]
     }
 
     /// The value of a mode at a site, given its unknowns (real ones as (r, 0) if the net has mirror

@@ -166,7 +166,8 @@ pub fn fourier_blocks<S: Scalar + Copy>(level: &Level<S>, rings: usize) -> Resul
 /// What the Fourier blocks of a level share: the plan by which one point of each orbit is made, from which
 /// the rows of all its unknowns follow.
 pub(crate) struct Assembly<S> {
-    numbering: Numbering,
+    /// The net of index 0, which has all rows.
+    net: FourierNet<S>,
     mirror: bool,
     orbits: Vec<Site>,
     plan: Plan<S>,
@@ -178,14 +179,14 @@ impl<S: Scalar + Copy> Assembly<S> {
             return Err(Error::NotSymmetric);
         }
         let (numbering, mirror) = (numbering(level, rings), level.has_mirror());
-        // orbits are the same for all indices, and index 0 has all rows
+        // orbits are the same for all indices
         let net = FourierNet::<S>::new(numbering, 0, mirror)?;
         let mut orbits: Vec<Site> = net.rows().into_iter().map(|site| net.orbit(site)).collect();
         orbits.sort_unstable();
         orbits.dedup();
         let plan = Plan::new(level, |site| net.orbit(site), &orbits)?;
         Ok(Assembly {
-            numbering,
+            net,
             mirror,
             orbits,
             plan,
@@ -193,7 +194,7 @@ impl<S: Scalar + Copy> Assembly<S> {
     }
 
     pub fn block(&self, index: usize) -> Result<Block<S>, Error> {
-        let net = FourierNet::new(self.numbering, index, self.mirror)?;
+        let net = self.net.of_index(index)?;
         let values = self.plan.run(&net)?;
         let rows = net.rows().into_iter().map(|site| {
             let position = self.orbits.binary_search(&net.orbit(site));
