@@ -14,9 +14,13 @@ pub fn own(name: &str) -> PathBuf {
         .join(name)
 }
 
-/// The large collection beside the repository, if it is there.
+/// The large collection, in a folder `shared` beside the repository or where `EIGENRING_SHARED` says, if it
+/// is there.
 pub fn shared(name: &str) -> Option<PathBuf> {
-    let path = Path::new("/work/shared").join(name);
+    let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared");
+    let path = std::env::var_os("EIGENRING_SHARED")
+        .map_or_else(beside, PathBuf::from)
+        .join(name);
     if path.exists() {
         return Some(path);
     }
