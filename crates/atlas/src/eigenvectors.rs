@@ -13,8 +13,8 @@ use eigenring_scheme::{Complex, Site};
 use eigenring_spectral::{Eigenvalue, Matrix, Mode};
 use serde_json::{Value, json};
 
-/// What is left of `S R - R D` and `L^T R - I` is below this times the largest entries: beyond the conditions
-/// at which vectors are refused, and far below what a missing or doubled vector leaves.
+/// Entries of `L^T R - I`, relative to the lengths of the vectors, beyond which they are refused: a missing or a
+/// doubled vector leaves one of the order of 1. Empirical: half of the digits.
 const RESIDUAL: f64 = 1e-6;
 
 /// A right eigenvector and the left one that belongs to it.
@@ -248,7 +248,7 @@ fn of_eigenvalue(analysis: &Analysis, e: &Eigenvalue) -> Result<Vec<Vectors>, Er
         return Ok(modes.map(|mode| plain(mode, e.value, None)).collect());
     };
     let modes = system.modes(index, e.value)?;
-    if index == 0 || 2 * index == n {
+    if e.blocks == 1 {
         return Ok(modes
             .into_iter()
             .map(|mode| plain(mode, e.value, Some(index)))
@@ -312,6 +312,31 @@ mod tests {
                     }
                 }
             }
+        }
+    }
+
+    /// Without a mirror symmetry eigenvalues are complex, and each conjugate is of a block of its own.
+    #[test]
+    fn conjugates_are_listed_each_and_have_vectors_of_their_own() {
+        let path = concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/../../tests/data/cases/asymmetric-line-n5.toml"
+        );
+        let name = format!("file:{path}").parse::<SchemeName>().unwrap();
+        let scheme = name.scheme(5, &Tuner::default()).unwrap();
+        let rings = scheme.closed_rings().unwrap();
+        let analysis = Analysis::of_scheme(&scheme, Some(rings), None).unwrap();
+        let eigenvalues = &analysis.spectrum.eigenvalues;
+        let complex: Vec<_> = eigenvalues.iter().filter(|e| e.value.1 != 0.0).collect();
+        assert!(!complex.is_empty());
+        for e in complex.iter().filter(|e| e.fourier != Some(0)) {
+            let other = complex.iter().find(|o| o.value == (e.value.0, -e.value.1)).unwrap();
+            assert_eq!(e.fourier.unwrap() + other.fourier.unwrap(), 5, "{e:?}");
+        }
+        let count: usize = eigenvalues.iter().map(|e| e.multiplicity).sum();
+        assert_eq!(count, analysis.system.numbering().count());
+        if eigenvalues.iter().all(|e| !e.is_defective()) {
+            assert!(Eigenvectors::new(&analysis).unwrap().residual() < 1e-10);
         }
     }
 

@@ -34,8 +34,8 @@ pub(crate) fn check_rings(rings: usize, closed: usize) -> Result<usize, Error> {
 
 /// A local matrix with its spectrum.
 ///
-/// Blocks k and N-k share their spectrum: eigenvalues are listed once, with `fourier = k <= N/2` and the
-/// multiplicity in the whole matrix, by falling modulus.
+/// Eigenvalues stand by falling modulus, with their multiplicities in the whole matrix; one that blocks k and
+/// N-k share is listed once, with `fourier = k <= N/2`.
 #[derive(Clone, Debug)]
 pub struct Analysis {
     /// What it is the matrix of.
@@ -246,10 +246,16 @@ impl Analysis {
     /// The sizes of an eigenvalue's Jordan blocks, falling, such as "2+1": those of one of two conjugate
     /// Fourier blocks. `None` where it has as many eigenvectors as its multiplicity.
     pub(crate) fn jordan(&self, eigenvalue: &Eigenvalue) -> Option<String> {
-        let block = self.system.blocks().get(eigenvalue.fourier.unwrap_or(0))?;
-        let sizes = eigenvalue
-            .is_defective()
-            .then(|| block.jordan_sizes(eigenvalue.value).ok())??;
+        let (index, n) = (eigenvalue.fourier.unwrap_or(0), self.system.valence());
+        // block N-k is the conjugate of block k
+        let (re, im) = eigenvalue.value;
+        let (index, value) = if 2 * index > n {
+            (n - index, (re, -im))
+        } else {
+            (index, (re, im))
+        };
+        let block = self.system.blocks().get(index)?;
+        let sizes = eigenvalue.is_defective().then(|| block.jordan_sizes(value).ok())??;
         let texts: Vec<String> = sizes.iter().map(usize::to_string).collect();
         Some(texts.join("+"))
     }

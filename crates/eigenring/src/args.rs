@@ -165,6 +165,38 @@ impl SchemeSettings {
     }
 }
 
+/// One scheme.
+#[derive(Args, Clone, Debug)]
+pub struct OneScheme {
+    /// The scheme: see 'eigenring --help'
+    #[arg(long, value_name = "SPEC")]
+    scheme: SchemeName,
+    #[command(flatten)]
+    settings: SchemeSettings,
+}
+
+impl OneScheme {
+    /// The scheme with its parameters set.
+    ///
+    /// # Errors
+    /// Those of [`SchemeSettings::apply`].
+    pub fn name(self) -> Result<SchemeName, Error> {
+        self.settings.apply(self.scheme)
+    }
+}
+
+/// Which control points of which level.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct NetArgs {
+    /// Rings of control points; by default as many as 'eigenring spectrum' takes, mostly the smallest closed
+    /// set
+    #[arg(long, value_name = "R", value_parser = count, allow_negative_numbers = true)]
+    pub rings: Option<usize>,
+    /// Level of refinement, 0 for the first; by default the limit level
+    #[arg(long, value_name = "LEVEL", value_parser = count, allow_negative_numbers = true)]
+    pub level: Option<usize>,
+}
+
 /// Schemes as a list, or one by one.
 #[derive(Args, Clone, Debug)]
 pub struct Schemes {
@@ -177,6 +209,20 @@ pub struct Schemes {
 }
 
 impl Schemes {
+    /// All that were given, each once, and at least one. Parameters are set in the files among them.
+    ///
+    /// # Errors
+    /// No schemes; parameters, and no file.
+    pub fn required(&self) -> Result<Vec<SchemeName>, Error> {
+        if self.given() {
+            return self.all();
+        }
+        Err(Error::usage(
+            "no schemes are given",
+            "--schemes SPEC,SPEC,.., see 'eigenring --help'",
+        ))
+    }
+
     /// All that were given, each once. Parameters are set in the files among them.
     ///
     /// # Errors

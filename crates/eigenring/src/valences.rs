@@ -103,6 +103,21 @@ fn one_of_scheme(text: &str) -> Result<usize, String> {
     }
 }
 
+/// The valences of a command that has its own where none are given.
+#[derive(Args, Clone, Debug)]
+pub struct OptionalValences {
+    /// Valences: numbers and ranges, such as 3..20 or 3,5,8..10
+    #[arg(
+        short = 'N',
+        long,
+        visible_alias = "valence",
+        value_name = "LIST",
+        value_parser = list,
+        allow_hyphen_values = true
+    )]
+    pub valences: Option<Valences>,
+}
+
 /// The valence of a command about one vertex or face.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct Valence {

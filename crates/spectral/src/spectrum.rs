@@ -11,10 +11,13 @@ use eigenring_scheme::{Complex, Level};
 pub struct Eigenvalue {
     /// The value as (real, imaginary).
     pub value: Complex<f64>,
-    /// The Fourier index `k <= N/2`; blocks k and N-k have conjugate spectra and are listed once. `None` for
-    /// rules that differ from sector to sector.
+    /// The Fourier index. Blocks k and N-k have conjugate spectra: a value that is in both is listed once, with
+    /// `k <= N/2`; one that is not real may be in one of them only, without mirror symmetry. `None` for rules
+    /// that differ from sector to sector.
     pub fourier: Option<usize>,
-    /// The algebraic multiplicity in the whole local matrix: both blocks counted.
+    /// How many blocks the multiplicities count: 2 for a value that blocks k and N-k share, else 1.
+    pub blocks: usize,
+    /// The algebraic multiplicity in the whole local matrix.
     pub multiplicity: usize,
     /// The number of independent eigenvectors in the whole local matrix, never above the multiplicity, and
     /// below it if defective. `None` where it was not asked for.
@@ -113,6 +116,7 @@ impl LocalSystem {
                     eigenvalues.push(Eigenvalue {
                         value,
                         fourier: self.symmetric().then_some(index),
+                        blocks: copies,
                         multiplicity: copies * multiplicity,
                         geometric: geometric.map(|vectors| copies * vectors),
                     });
@@ -127,10 +131,11 @@ impl LocalSystem {
             }
         }
         eigenvalues.sort_by(|a, b| order(a.value, b.value).then(a.fourier.cmp(&b.fourier)));
-        // equal up to rounding: by Fourier index
+        // equal or conjugate up to rounding: by Fourier index
+        let upper = |e: &Eigenvalue| (e.value.0, e.value.1.abs());
         let mut start = 0;
         for end in 1..=eigenvalues.len() {
-            if end == eigenvalues.len() || !eigenvalues[end].is_close(&eigenvalues[start]) {
+            if end == eigenvalues.len() || !are_close(upper(&eigenvalues[end]), upper(&eigenvalues[start])) {
                 eigenvalues[start..end].sort_by_key(|e| e.fourier);
                 start = end;
             }
@@ -215,18 +220,8 @@ impl Spectrum {
         let pair = self.subdominant().filter(|e| e.fourier == Some(1))?;
         let (mut left, mut mu) = (vec![], f64::INFINITY);
         for index in 0..=valence / 2 {
-            let twice = index != 0 && 2 * index != valence;
             let block = self.eigenvalues.iter().filter(|e| e.fourier == Some(index));
-            // listed for this block alone if it is not real and block N-k has its conjugate
-            let alone = |e: &Eigenvalue| {
-                let conjugate = (e.value.0, -e.value.1);
-                let mut other = self.eigenvalues.iter().filter(|e| e.fourier == Some(valence - index));
-                twice && other.any(|other| are_close(other.value, conjugate))
-            };
-            let mut moduli = block.flat_map(|e| {
-                let copies = if twice && !alone(e) { 2 } else { 1 };
-                std::iter::repeat_n(e.modulus(), e.multiplicity / copies)
-            });
+            let mut moduli = block.flat_map(|e| std::iter::repeat_n(e.modulus(), e.multiplicity / e.blocks));
             let passed = match index {
                 0 => moduli.next().map(|first| (first, leading)),
                 1 => moduli.next().map(|first| (first, pair)),

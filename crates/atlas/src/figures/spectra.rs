@@ -154,10 +154,9 @@ fn chart(subject: &Subject, spectrum: &Spectrum) -> Chart {
     for (kind_, marker, colour, label) in KINDS {
         let mut points = Vec::new();
         for e in shown().filter(|e| kind(e) == kind_) {
-            let k = e.fourier.unwrap_or(0);
-            // blocks k and N-k are counted together
-            let copies = if k == 0 || 2 * k == n { 1 } else { 2 };
-            let count = e.multiplicity / copies;
+            // blocks k and N-k stand in one place
+            let k = e.fourier.map_or(0, |k| k.min(n - k));
+            let count = e.multiplicity / e.blocks;
             let step = (0.16 * last as f64 / 5.0).min(0.8 / count as f64);
             points.extend((0..count).map(|i| [k as f64 + step * (i as f64 - 0.5 * (count - 1) as f64), e.modulus()]));
         }
@@ -181,6 +180,7 @@ mod tests {
         Eigenvalue {
             value: (re, im),
             fourier: Some(1),
+            blocks: 1,
             multiplicity,
             geometric: Some(geometric),
         }

@@ -509,6 +509,7 @@ fn spectrum(blocks: &[Block<f64>], valence: Option<usize>) -> Result<Spectrum, E
                 eigenvalues.push(Eigenvalue {
                     value,
                     fourier: valence.map(|_| fourier),
+                    blocks: copies,
                     multiplicity: copies * e.multiplicity,
                     geometric: Some(copies * geometric),
                 });

@@ -50,13 +50,7 @@ impl Arguments {
         let format = self.output.format()?;
         let wide = self.wide.of(format)?;
         self.threads.start()?;
-        if !self.schemes.given() {
-            return Err(Error::usage(
-                "no schemes are given",
-                "--schemes SPEC,SPEC,.., see 'eigenring --help'",
-            ));
-        }
-        let rows = compare(&self.schemes.all()?, self.valences.closed()?, &tuner())?;
+        let rows = compare(&self.schemes.required()?, self.valences.closed()?, &tuner())?;
         let printed = match format {
             Format::Text => text(&rows, wide),
             _ => table(rows)

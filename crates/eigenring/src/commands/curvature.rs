@@ -1,13 +1,12 @@
 //! `eigenring curvature`: extremes, integrals and irregular centres of a surface.
 
 use super::subdivide::SurfaceArgs;
-use crate::args;
+use crate::args::{self, OneScheme};
 use crate::error::Error;
 use crate::output::Output;
 use clap::Args;
 use eigenring_atlas::curvature::{Extremes, centre_table, curvatures};
 use eigenring_atlas::meshes::Fields;
-use eigenring_atlas::schemes::SchemeName;
 use eigenring_atlas::table::{Format, pretty};
 use eigenring_surface::{Facts, Surface, Topology};
 use serde_json::json;
@@ -24,9 +23,8 @@ pub struct Arguments {
     /// The control mesh: .obj, .off or .ply
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// The scheme: see 'eigenring --help'
-    #[arg(long, value_name = "SPEC")]
-    scheme: SchemeName,
+    #[command(flatten)]
+    scheme: OneScheme,
     /// Samples in each direction of a face, for the extremes
     #[arg(long, value_name = "n", default_value_t = 8, value_parser = args::count, allow_negative_numbers = true)]
     per_face: usize,
@@ -69,7 +67,7 @@ impl Arguments {
             return Err(Error::range("per-face", self.per_face, "1 to 1000"));
         }
         let mesh = self.surface.mesh(&self.file)?;
-        let rules = self.surface.rules(&self.scheme, &mesh)?;
+        let rules = self.surface.rules(&self.scheme.name()?, &mesh)?;
         let topology = Topology::new(&mesh).map_err(eigenring_surface::Error::from)?;
         let facts = Facts::of(&mesh, &topology);
         let smooth = facts.boundary_loops.is_empty() && facts.features.sharp_edges == 0;

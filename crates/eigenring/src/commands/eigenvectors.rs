@@ -1,13 +1,12 @@
 //! `eigenring eigenvectors`: right and left eigenvectors of a local matrix, with the names of its points.
 
-use crate::args::{self, CornerArgs};
+use crate::args::{self, CornerArgs, NetArgs, OneScheme};
 use crate::error::Error;
 use crate::files;
 use crate::output::{Extension, agreed};
 use crate::valences::OptionalValence;
 use clap::{Args, ValueEnum};
 use eigenring_atlas::eigenvectors::Eigenvectors;
-use eigenring_atlas::schemes::SchemeName;
 use eigenring_atlas::spectrum::Analysis;
 use eigenring_atlas::table::{Format, pretty};
 use std::path::PathBuf;
@@ -25,19 +24,14 @@ use std::process::ExitCode;
     after_help = "Examples:\n  eigenring eigenvectors --scheme catmull-clark -N 5 -o vectors.json\n  eigenring eigenvectors --scheme stam:order=6 -N 7 --format csv"
 )]
 pub struct Arguments {
-    /// The scheme: see 'eigenring --help'
-    #[arg(long, value_name = "SPEC")]
-    scheme: SchemeName,
+    #[command(flatten)]
+    scheme: OneScheme,
     #[command(flatten)]
     valence: OptionalValence,
     #[command(flatten)]
     corner: CornerArgs,
-    /// Rings of control points; by default as many as 'eigenring spectrum' takes
-    #[arg(long, value_name = "R", value_parser = args::count, allow_negative_numbers = true)]
-    rings: Option<usize>,
-    /// Level of refinement, 0 for the first; by default the limit level
-    #[arg(long, value_name = "LEVEL", value_parser = args::count, allow_negative_numbers = true)]
-    level: Option<usize>,
+    #[command(flatten)]
+    net: NetArgs,
     /// JSON (the default), comma-separated values, or NumPy
     #[arg(long, value_enum)]
     format: Option<VectorFormat>,
@@ -68,11 +62,12 @@ impl Extension for VectorFormat {
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         let (shape, steps) = self.corner.shape(self.valence.valence)?;
-        let corner = shape.corner(self.scheme.centre()?, steps)?;
-        let scheme = self.scheme.around(&corner, &args::tuner())?;
+        let name = self.scheme.name()?;
+        let corner = shape.corner(name.centre()?, steps)?;
+        let scheme = name.around(&corner, &args::tuner())?;
         let format = agreed(self.format, self.out.as_deref())?.unwrap_or_default();
-        let extended = self.scheme.extended(&corner)?;
-        let analysis = Analysis::of_corner(&scheme, extended.as_ref(), &corner, self.rings, self.level)?;
+        let extended = name.extended(&corner)?;
+        let analysis = Analysis::of_corner(&scheme, extended.as_ref(), &corner, self.net.rings, self.net.level)?;
         let vectors = Eigenvectors::new(&analysis)?;
         let bytes = match format {
             VectorFormat::Json => pretty(&vectors.json()).into_bytes(),

@@ -1,13 +1,12 @@
 //! `eigenring limit`: exact points of a surface.
 
 use super::subdivide::SurfaceArgs;
-use crate::args;
+use crate::args::{self, OneScheme};
 use crate::error::Error;
 use crate::memory;
 use crate::output::Output;
 use clap::{ArgGroup, Args};
 use eigenring_atlas::limits;
-use eigenring_atlas::schemes::SchemeName;
 use eigenring_atlas::table::Format;
 use eigenring_surface::Surface;
 use std::path::PathBuf;
@@ -26,9 +25,8 @@ pub struct Arguments {
     /// The control mesh: .obj, .off or .ply
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// The scheme: see 'eigenring --help'
-    #[arg(long, value_name = "SPEC")]
-    scheme: SchemeName,
+    #[command(flatten)]
+    scheme: OneScheme,
     /// A CSV file with columns `face,sub,s,t[,corner]`
     #[arg(long, value_name = "P.csv")]
     points: Option<PathBuf>,
@@ -55,7 +53,7 @@ impl Arguments {
         self.surface.start()?;
         let format = self.output.format()?;
         let mesh = self.surface.mesh(&self.file)?;
-        let rules = self.surface.rules(&self.scheme, &mesh)?;
+        let rules = self.surface.rules(&self.scheme.name()?, &mesh)?;
         let in_file = |error: eigenring_surface::Error| eigenring_atlas::Error::from(error).in_file(&self.file);
         let surface = Surface::new(&mesh, &rules).map_err(in_file)?;
         if self.vertices {

@@ -1,6 +1,6 @@
 //! `eigenring matrix`: the local matrix in the formats of other programs, with its numbering.
 
-use crate::args::{self, CornerArgs, SchemeSettings};
+use crate::args::{self, CornerArgs, NetArgs, OneScheme};
 use crate::error::Error;
 use crate::files;
 use crate::output::{Extension, agreed};
@@ -8,7 +8,6 @@ use crate::threads::Threads;
 use crate::valences::OptionalValence;
 use clap::{Args, ValueEnum};
 use eigenring_atlas::matrix::LocalMatrix;
-use eigenring_atlas::schemes::SchemeName;
 use eigenring_atlas::table::{Format, pretty};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -24,22 +23,14 @@ use std::process::ExitCode;
     after_help = "Examples:\n  eigenring matrix --scheme catmull-clark -N 5 --rings 2 -o S.csv --numbering points.csv\n  eigenring matrix --scheme tension:order=6 -N 3 --format json"
 )]
 pub struct Arguments {
-    /// The scheme: see 'eigenring --help'
-    #[arg(long, value_name = "SPEC")]
-    scheme: SchemeName,
     #[command(flatten)]
-    settings: SchemeSettings,
+    scheme: OneScheme,
     #[command(flatten)]
     valence: OptionalValence,
     #[command(flatten)]
     corner: CornerArgs,
-    /// Rings of control points; by default as many as 'eigenring spectrum' takes, mostly the smallest closed
-    /// set
-    #[arg(long, value_name = "R", value_parser = args::count, allow_negative_numbers = true)]
-    rings: Option<usize>,
-    /// Level of refinement, 0 for the first; by default the limit level
-    #[arg(long, value_name = "LEVEL", value_parser = args::count, allow_negative_numbers = true)]
-    level: Option<usize>,
+    #[command(flatten)]
+    net: NetArgs,
     /// Matrix Market (the default), NumPy, comma-separated values, or JSON
     #[arg(long, value_enum)]
     format: Option<MatrixFormat>,
@@ -78,11 +69,11 @@ impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         self.threads.start()?;
         let (shape, steps) = self.corner.shape(self.valence.valence)?;
-        let scheme = self.settings.apply(self.scheme)?;
+        let scheme = self.scheme.name()?;
         let corner = shape.corner(scheme.centre()?, steps)?;
         let scheme = scheme.around(&corner, &args::tuner())?;
         let format = agreed(self.format, self.out.as_deref())?.unwrap_or_default();
-        let matrix = LocalMatrix::new(&scheme, self.rings, self.level)?;
+        let matrix = LocalMatrix::new(&scheme, self.net.rings, self.net.level)?;
         let bytes = match format {
             MatrixFormat::Mtx => matrix.matrix_market().into_bytes(),
             MatrixFormat::Npy => matrix.npy(),

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::files::{self, Written};
 use crate::progress::{Terminal, note};
 use crate::threads::Threads;
-use crate::valences::{self, Valences};
+use crate::valences::OptionalValences;
 use clap::{Args, ValueEnum};
 use eigenring_atlas::figures::{self, Drawing, Entry, FIGURES, Inputs, Studies};
 use eigenring_atlas::progress::{Silent, each};
@@ -56,16 +56,8 @@ pub struct Arguments {
     /// Width: one printed column (85 mm) or two (178 mm); by default each figure's own
     #[arg(long, value_enum)]
     size: Option<Size>,
-    /// Valences: numbers and ranges; by default each figure's own
-    #[arg(
-        short = 'N',
-        long,
-        visible_alias = "valence",
-        value_name = "LIST",
-        value_parser = valences::list,
-        allow_hyphen_values = true
-    )]
-    valences: Option<Valences>,
+    #[command(flatten)]
+    valences: OptionalValences,
     /// Lambdas, separated by commas; by default each figure's own
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = args::number, allow_negative_numbers = true, conflicts_with = "lists")]
     lambda: Vec<f64>,
@@ -170,7 +162,7 @@ impl Arguments {
     /// else takes its place unless that folder is named.
     fn out(&self) -> PathBuf {
         let stored = self.all
-            && self.valences.is_none()
+            && self.valences.valences.is_none()
             && self.lambda.is_empty()
             && self.range.is_none()
             && !self.schemes.given()
@@ -202,7 +194,7 @@ impl Arguments {
 
     /// Refuses what the figures do not take; with --all, options go to those that take them.
     fn check(&self, entries: &[&Entry]) -> Result<(), Error> {
-        if let Some(valences) = &self.valences {
+        if let Some(valences) = &self.valences.valences {
             valences.closed()?;
         }
         if self.dpi.is_some() && !self.format.contains(&PictureFormat::Png) {
@@ -235,7 +227,7 @@ impl Arguments {
                     format!("{option} for {}", names.join(", ")),
                 ))
             };
-            if self.valences.is_some() && entry.valences.is_empty() {
+            if self.valences.valences.is_some() && entry.valences.is_empty() {
                 return refuse("--valences", |entry| !entry.valences.is_empty());
             }
             if self.range.is_some() && !entry.range {
@@ -255,7 +247,7 @@ impl Arguments {
     }
 
     fn valences<'a>(&'a self, entry: &'a Entry) -> Result<&'a [usize], Error> {
-        match &self.valences {
+        match &self.valences.valences {
             Some(valences) if !entry.valences.is_empty() => valences.closed(),
             _ => Ok(entry.valences),
         }

@@ -1,12 +1,11 @@
 //! `eigenring render`: pictures of surfaces.
 
 use super::subdivide::SurfaceArgs;
-use crate::args;
+use crate::args::{self, Schemes};
 use crate::error::Error;
 use crate::files;
 use clap::{Args, ValueEnum};
 use eigenring_atlas::render::{Settings, Show, render};
-use eigenring_atlas::schemes::SchemeList;
 use eigenring_surface::{Rules, Surface};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -23,9 +22,8 @@ pub struct Arguments {
     /// The control mesh: .obj, .off or .ply
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Schemes, in the order of the pictures
-    #[arg(long, value_name = "SPEC,..")]
-    schemes: SchemeList,
+    #[command(flatten)]
+    schemes: Schemes,
     /// What is shown
     #[arg(long, value_enum, default_value = "shaded")]
     show: ShowArg,
@@ -120,7 +118,7 @@ impl Arguments {
         self.surface.start()?;
         let settings = self.settings()?;
         let mesh = self.surface.mesh(&self.file)?;
-        let schemes = &self.schemes.0;
+        let schemes = self.schemes.required()?;
         if schemes.len() > 8 {
             return Err(Error::range("number of schemes", schemes.len(), "1 to 8"));
         }

@@ -1,6 +1,6 @@
 //! `eigenring subdivide`: a mesh refined by a scheme.
 
-use crate::args;
+use crate::args::{self, OneScheme};
 use crate::error::Error;
 use crate::files;
 use crate::memory;
@@ -27,9 +27,8 @@ pub struct Arguments {
     /// The control mesh: .obj, .off or .ply
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// The scheme: see 'eigenring --help'
-    #[arg(long, value_name = "SPEC")]
-    scheme: SchemeName,
+    #[command(flatten)]
+    scheme: OneScheme,
     /// Levels of refinement
     #[arg(long, value_name = "COUNT", default_value_t = 1, value_parser = args::count, allow_negative_numbers = true)]
     levels: usize,
@@ -121,7 +120,7 @@ impl Arguments {
             ));
         }
         let mesh = self.surface.mesh(&self.file)?;
-        let rules = self.surface.rules(&self.scheme, &mesh)?;
+        let rules = self.surface.rules(&self.scheme.name()?, &mesh)?;
         let mut refiner = Refiner::new(&rules);
         refiner.workers = &Pool;
         let (points, faces) = refiner.size(&mesh, self.levels);

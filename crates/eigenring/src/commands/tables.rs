@@ -8,7 +8,7 @@ use crate::files::{self, Written};
 use crate::output::{FormatOption, Wide};
 use crate::progress::{Terminal, say};
 use crate::threads::Threads;
-use crate::valences::{self, Valences};
+use crate::valences::OptionalValences;
 use clap::{Args, ValueEnum};
 use eigenring_atlas::results::{self, FOLDER, Results, summary};
 use eigenring_atlas::run::{Parameters, check, studies};
@@ -37,16 +37,8 @@ pub struct Arguments {
     /// Whose tables
     #[arg(long, value_enum, default_value_t)]
     scheme: Tabulated,
-    /// Valences: numbers and ranges, such as 3..20 or 3,5,8..10; by default 3..20
-    #[arg(
-        short = 'N',
-        long,
-        visible_alias = "valence",
-        value_name = "LIST",
-        value_parser = valences::list,
-        allow_hyphen_values = true
-    )]
-    valences: Option<Valences>,
+    #[command(flatten)]
+    valences: OptionalValences,
     /// Output folder; files go to its subfolder lambda or tension. By default results, or eigenring-out with
     /// --valences or any option that changes the numbers
     #[arg(long, value_name = "FOLDER")]
@@ -105,14 +97,14 @@ impl Arguments {
             KnotsArg::Detected => Knots::Detected,
             KnotsArg::Paper => Knots::Paper,
         };
-        let valences = match &self.valences {
+        let valences = match &self.valences.valences {
             Some(valences) => valences.closed()?.to_vec(),
             None => usual_valences(),
         };
         let parameters = Parameters::new(valences.clone(), knots, &options, &Range::default());
         let usual = Parameters::new(valences, Knots::Detected, &Options::default(), &Range::default());
         // what is stored has the default parameters, and nothing else takes its place unasked
-        let stored = self.valences.is_none() && parameters == usual;
+        let stored = self.valences.valences.is_none() && parameters == usual;
         let default = if stored { RESULTS } else { UNSTORED };
         let out = self.out.clone().unwrap_or_else(|| default.into());
         let format = self.format.format();

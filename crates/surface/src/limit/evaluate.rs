@@ -304,8 +304,19 @@ fn regular(jet: &Jet3, scale: f64) -> Sample {
     let first = [vector(xs), vector(xt)].map(|d| d * scale);
     let second = [vector(xss), vector(xst), vector(xtt)].map(|d| d * (scale * scale));
     let curved = curvature(&first, &second);
+    smooth(Point3::from(*position), first, second, curved)
+}
+
+/// A place with derivatives, whose curvature is not defined where they are degenerate.
+#[inline]
+fn smooth(
+    position: Point3<f64>,
+    first: [Vector3<f64>; 2],
+    second: [Vector3<f64>; 3],
+    curved: Option<Curvature>,
+) -> Sample {
     Sample {
-        position: Point3::from(*position),
+        position,
         first: Some(first),
         second: Some(second),
         normal: curved.as_ref().map(|c| c.normal),
@@ -358,20 +369,7 @@ fn beside(corner: u32, centre: &Centre, ladder: &mut Ladder, s: f64, t: f64, sca
         2 => ([-xs, -xt], [xss, xst, xtt]),
         _ => ([xt, -xs], [xtt, -xst, xss]),
     };
-    Sample {
-        position: ladder.position + real(&jet[0]),
-        first: Some(first),
-        second: Some(second),
-        normal: curved.as_ref().map(|c| c.normal),
-        gauss: curved.as_ref().map(|c| c.gauss),
-        mean: curved.as_ref().map(|c| c.mean),
-        principal: curved.as_ref().map(|c| c.principal),
-        kind: if curved.is_some() {
-            Kind::Regular
-        } else {
-            Kind::Undefined(Undefined::Degenerate)
-        },
-    }
+    smooth(ladder.position + real(&jet[0]), first, second, curved)
 }
 
 /// The curvature of a jet in the frame of a ladder: of the surface `(x, y, lambda^m z)`, scaled back.
