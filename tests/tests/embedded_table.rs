@@ -7,7 +7,7 @@
 //! Until the table has been written there is nothing to check, and the tests say so; a table that is there
 //! must be whole.
 
-use eigenring_scheme::lambda::{Bounds, Constraint, Domain, Entry, LambdaTable, PAPER_TABLE_1, Relaxation};
+use eigenring_scheme::lambda::{Bounds, Constraint, Domain, LambdaEntry, LambdaTable, PAPER_TABLE_1, Relaxation};
 use eigenring_tests::Comparison;
 use eigenring_tune::objective::{Objective, Settings};
 use serde_json::Value;
@@ -138,7 +138,7 @@ fn is_the_published_table() {
 }
 
 /// Slacks over the lambdas of one entry that are too small, worst first.
-fn infeasible(entry: &Entry) -> Vec<(f64, String)> {
+fn infeasible(entry: &LambdaEntry) -> Vec<(f64, String)> {
     /// Weights may vanish, and then rounding of the splines leaves this much.
     const ROUNDING: f64 = 1e-14;
     /// Eigenvalues must stay below mu by this factor: the fit keeps 1e-6 at its own lambdas and may lose some

@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 
 #[derive(Deserialize)]
 struct Index {
-    entry: Vec<Entry>,
+    entry: Vec<IndexEntry>,
 }
 
 #[derive(Deserialize)]
-struct Entry {
+struct IndexEntry {
     name: String,
     shows: String,
     files: Vec<PathBuf>,

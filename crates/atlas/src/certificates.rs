@@ -8,7 +8,7 @@ use crate::error::{Accepted, Error};
 use crate::schemes::{SchemeName, Tuner, stem};
 use crate::table::Table;
 use eigenring_certify::parameter::{ParameterCertificate, recheck_parameter_text};
-use eigenring_certify::range::{Curve, RangeCertificate, recheck_range_text};
+use eigenring_certify::range::{RangeCertificate, StencilCurve, recheck_range_text};
 use eigenring_certify::{Certificate, Input, Requirement, Statement, Status, recheck_text};
 use eigenring_scheme::lambda::LambdaTable;
 use eigenring_scheme::user::Reading;
@@ -110,7 +110,7 @@ pub fn beside(
 ///
 /// # Errors
 /// [`Error::Usage`] for a scheme of another family, or with an s of its own; a valence that is not tabulated.
-pub fn curve(scheme: Option<&SchemeName>, valence: usize) -> Result<Curve, Error> {
+pub fn curve(scheme: Option<&SchemeName>, valence: usize) -> Result<StencilCurve, Error> {
     match scheme {
         None
         | Some(SchemeName::Spec(
@@ -118,12 +118,12 @@ pub fn curve(scheme: Option<&SchemeName>, valence: usize) -> Result<Curve, Error
             | Spec::Lambda {
                 weights: None, s: None, ..
             },
-        )) => Ok(Curve::embedded(valence)?),
+        )) => Ok(StencilCurve::embedded(valence)?),
         Some(SchemeName::Spec(Spec::Lambda {
             weights: Some((f2, f3)),
             s: None,
             ..
-        })) => Ok(Curve::Constant { f2: *f2, f3: *f3 }),
+        })) => Ok(StencilCurve::Constant { f2: *f2, f3: *f3 }),
         Some(_) => Err(Error::Usage {
             message: "a range of lambda is for the lambda-scheme with s by its rule".to_owned(),
             accepted: "lambda:optimal (its splines) or lambda:lambda=L,f2=X,f3=Y (constant f2, f3)".to_owned(),
@@ -154,7 +154,7 @@ pub struct Ranged {
     /// The valence.
     pub valence: usize,
     /// The members.
-    pub curve: Curve,
+    pub curve: StencilCurve,
     /// The range of lambda.
     pub lambda: [f64; 2],
 }
@@ -213,7 +213,7 @@ pub fn ranges(valences: &[usize]) -> Result<Vec<Ranged>, Error> {
                 file: format!("ranges/N{valence:03}-{label}.json").into(),
                 label,
                 valence,
-                curve: Curve::embedded(valence)?,
+                curve: StencilCurve::embedded(valence)?,
                 lambda,
             });
         }

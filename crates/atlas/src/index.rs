@@ -33,13 +33,13 @@ pub struct Index {
     version: u32,
     /// In the order in which they are rebuilt: later ones may read the files of earlier ones.
     #[serde(rename = "entry", default)]
-    pub entries: Vec<Entry>,
+    pub entries: Vec<IndexEntry>,
 }
 
 /// A table or a figure.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Entry {
+pub struct IndexEntry {
     /// Its name, for `--only`.
     pub name: String,
     /// What it shows, with the paper's number.
@@ -113,7 +113,7 @@ impl Index {
         let entries = groups.into_iter().map(|path| {
             let name = path.parent().and_then(Path::file_name);
             let name = name.map_or(String::new(), |name| name.to_string_lossy().into_owned());
-            Entry::recorded(name, &files::read(&path)?, accept).map_err(|error| error.in_file(&path))
+            IndexEntry::recorded(name, &files::read(&path)?, accept).map_err(|error| error.in_file(&path))
         });
         Ok(Index {
             version: VERSION,
@@ -125,8 +125,8 @@ impl Index {
     ///
     /// # Errors
     /// [`Error::Usage`] with the names that there are.
-    pub fn select(&self, only: Option<&str>) -> Result<Vec<&Entry>, Error> {
-        let selected: Vec<&Entry> = self
+    pub fn select(&self, only: Option<&str>) -> Result<Vec<&IndexEntry>, Error> {
+        let selected: Vec<&IndexEntry> = self
             .entries
             .iter()
             .filter(|entry| only.is_none_or(|name| entry.name == name))
@@ -145,7 +145,7 @@ impl Index {
     }
 }
 
-impl Entry {
+impl IndexEntry {
     /// The entry of a group of tables, by the command that they record.
     fn recorded(name: String, text: &str, accept: Accept<'_>) -> Result<Self, Error> {
         let value: serde_json::Value =
@@ -153,7 +153,7 @@ impl Entry {
         let command = value["provenance"]["command"]
             .as_str()
             .ok_or_else(|| Error::content("no results: provenance.command is missing"))?;
-        let entry = Entry {
+        let entry = IndexEntry {
             name,
             shows: String::new(),
             command: command.to_owned(),

@@ -6,12 +6,12 @@
 use crate::error::Error;
 use crate::progress::{Progress, each};
 use crate::table::short;
-use eigenring_scheme::lambda::{Bounds, Entry, Relaxation};
+use eigenring_scheme::lambda::{Bounds, LambdaEntry, Relaxation};
 use eigenring_tune::global::{Global, global};
 use eigenring_tune::objective::{Normalisation, Settings};
 use eigenring_tune::search::Starts;
 use eigenring_tune::study::{Knots, Study};
-use eigenring_tune::sweep::{Options, Problem, Range, Sample, sample};
+use eigenring_tune::sweep::{LambdaSample, Options, Problem, Range, sample};
 use serde::{Deserialize, Serialize};
 
 /// Everything that results depend on, as it is recorded with them.
@@ -116,7 +116,7 @@ impl Parameters {
 
     /// The splines and featured values of a study of this run. Where no end of the recommended region was
     /// found, it is that of the range.
-    pub fn entry(&self, study: &Study) -> Entry {
+    pub fn entry(&self, study: &Study) -> LambdaEntry {
         let lambda_r2 = study.featured("lambda_r2").map_or(self.range[1], |f| f.lambda);
         study.entry(self.phi, lambda_r2)
     }
@@ -169,22 +169,22 @@ pub fn check(parameters: &Parameters) -> Result<(), Error> {
 /// Where finished samples are kept while a run lasts.
 pub trait Kept: Sync {
     /// The sample of a valence at a lambda, if it is finished.
-    fn get(&self, valence: usize, lambda: f64) -> Option<Sample>;
+    fn get(&self, valence: usize, lambda: f64) -> Option<LambdaSample>;
 
     /// Keeps a finished sample.
     ///
     /// # Errors
     /// Whatever prevents it, which ends the run.
-    fn add(&self, sample: &Sample) -> Result<(), Error>;
+    fn add(&self, sample: &LambdaSample) -> Result<(), Error>;
 }
 
 /// Nothing is kept.
 impl Kept for () {
-    fn get(&self, _: usize, _: f64) -> Option<Sample> {
+    fn get(&self, _: usize, _: f64) -> Option<LambdaSample> {
         None
     }
 
-    fn add(&self, _: &Sample) -> Result<(), Error> {
+    fn add(&self, _: &LambdaSample) -> Result<(), Error> {
         Ok(())
     }
 }
@@ -208,10 +208,10 @@ pub fn studies(parameters: &Parameters, kept: &dyn Kept, progress: &dyn Progress
         }
         let found = sample(valence, lambda, &options)?;
         kept.add(&found)?;
-        Ok::<Sample, Error>(found)
+        Ok::<LambdaSample, Error>(found)
     })?;
     each(progress, "splines", &parameters.valences, |&valence| {
-        let samples: Vec<Sample> = computed.iter().filter(|s| s.valence == valence).cloned().collect();
+        let samples: Vec<LambdaSample> = computed.iter().filter(|s| s.valence == valence).cloned().collect();
         Ok(Study::new(&samples, &range, &options, parameters.knots)?)
     })
 }
@@ -224,7 +224,7 @@ pub fn minima_over_lambda(
     valence: usize,
     options: &Options,
     progress: &dyn Progress,
-) -> Result<(Global, Vec<Sample>), Error> {
+) -> Result<(Global, Vec<LambdaSample>), Error> {
     let lambdas = Range::default().lambdas(valence)?;
     let rule = Relaxation::new(valence)?;
     // before work that may take minutes

@@ -8,7 +8,7 @@ use eigenring_scheme::lambda::LambdaTable;
 use eigenring_tune::global::LambdaMinimum;
 use eigenring_tune::objective::Settings;
 use eigenring_tune::search::distance;
-use eigenring_tune::sweep::{Minimum, Options, Problem, Sample, sample};
+use eigenring_tune::sweep::{LambdaSample, Minimum, Options, Problem, sample};
 
 /// What was found: one minimum, and those beside it.
 #[derive(Clone, Debug)]
@@ -51,7 +51,7 @@ pub fn at(valence: usize, lambda: f64, options: &Options) -> Result<Found, Error
 pub fn over_lambda(valence: usize, options: &Options, progress: &dyn Progress) -> Result<Found, Error> {
     let (found, samples) = minima_over_lambda(valence, options, progress)?;
     let best = found.optimum();
-    let at_optimum = Sample {
+    let at_optimum = LambdaSample {
         valence,
         lambda: best.lambda,
         s: best.s,
@@ -71,7 +71,7 @@ pub fn over_lambda(valence: usize, options: &Options, progress: &dyn Progress) -
 
 /// Which of the minima the embedded spline follows: the nearest, if the valence is tabulated at this lambda
 /// and the objective is the one that was tabulated.
-fn tabulated(found: &Sample, options: &Options) -> Result<Option<usize>, Error> {
+fn tabulated(found: &LambdaSample, options: &Options) -> Result<Option<usize>, Error> {
     let Ok(entry) = LambdaTable::embedded()?.entry(found.valence) else {
         return Ok(None);
     };
@@ -87,7 +87,7 @@ fn tabulated(found: &Sample, options: &Options) -> Result<Option<usize>, Error> 
     Ok(nearest)
 }
 
-fn record(found: &Sample, best: &Minimum, branch: &str) -> Record {
+fn record(found: &LambdaSample, best: &Minimum, branch: &str) -> Record {
     Record::default()
         .with("valence", found.valence)
         .with("lambda", found.lambda)

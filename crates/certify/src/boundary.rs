@@ -17,14 +17,14 @@
 //! which are linearly independent. For almost all data p, q, t are so as well, and the two limits differ.
 
 use crate::conditions::differing::Leading;
-use crate::spectral::{Place, Spectrum, eigenvector_within};
+use crate::spectral::{EnclosedSpectrum, Place, eigenvector_within};
 use crate::{Check, Interval, Statement, Witness};
 use eigenring_spectral::PatchIndex;
 use eigenring_spline::bernstein::Polynomial;
 use eigenring_spline::uniform::to_bernstein;
 
 /// A refutation of `regular` by the first spoke of an open fan, if the theorem applies.
-pub fn unseen(spectrum: &Spectrum, leading: &Leading) -> Option<Check> {
+pub fn unseen(spectrum: &EnclosedSpectrum, leading: &Leading) -> Option<Check> {
     let patches = &spectrum.patches;
     let numbering = patches.numbering();
     let [x, y] = leading.vectors.as_ref()?;

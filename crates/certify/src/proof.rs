@@ -7,7 +7,7 @@ use crate::levels::{Pair, levels};
 use crate::map::{self, Heights, PlaneNet, Sign};
 use crate::patches::Unknown;
 use crate::rows;
-use crate::spectral::{self, Problem, Spectrum};
+use crate::spectral::{self, EnclosedSpectrum, Problem};
 use crate::{Check, Error, Interval, Statement, Status, Subject, Witness};
 use eigenring_scheme::Lattice;
 use std::slice;
@@ -72,7 +72,7 @@ impl<'a> Proof<'a> {
                 unseen: None,
             });
         }
-        let spectrum = Spectrum::new(problem, evidence);
+        let spectrum = EnclosedSpectrum::new(problem, evidence);
         if !subject.scheme.limit().is_rotation_symmetric() {
             return Ok(Proof::of_different_sectors(subject, vec![row_sums, hull], &spectrum));
         }
@@ -111,7 +111,7 @@ impl<'a> Proof<'a> {
     }
 
     /// The same for rules that differ from sector to sector.
-    fn of_different_sectors(subject: &'a Subject, mut checks: Vec<Check>, spectrum: &Spectrum) -> Self {
+    fn of_different_sectors(subject: &'a Subject, mut checks: Vec<Check>, spectrum: &EnclosedSpectrum) -> Self {
         let (subdominant, leading) = differing::subdominant(spectrum);
         checks.extend([differing::dominant(spectrum), subdominant]);
         let pair = leading.as_ref().map(|leading| Pair {
@@ -262,7 +262,7 @@ fn parts(net: spectral::Net) -> [Vec<Interval>; 2] {
     [x, y]
 }
 
-fn characteristic(spectrum: &Spectrum, lambda: &Subdominant) -> Option<PlaneNet<Interval>> {
+fn characteristic(spectrum: &EnclosedSpectrum, lambda: &Subdominant) -> Option<PlaneNet<Interval>> {
     let entry = &spectrum.entries[lambda.position];
     let net = spectrum.net(entry, lambda.value)?;
     PlaneNet::new(spectrum.patches.annulus, 1, true, parts(net)).ok()
@@ -271,7 +271,7 @@ fn characteristic(spectrum: &Spectrum, lambda: &Subdominant) -> Option<PlaneNet<
 /// The maps of the largest further eigenvalues of the blocks 0 and 2 (N = 3: of block 1 once more; N = 4: two
 /// of block 2).
 fn second_order_maps(
-    spectrum: &Spectrum,
+    spectrum: &EnclosedSpectrum,
     lambda: &Subdominant,
     net: &PlaneNet<Interval>,
 ) -> Vec<(Heights<Interval>, Sign)> {

@@ -1,6 +1,6 @@
 //! What certificates must say: known schemes, planted faults, tampering.
 
-use eigenring_certify::range::{Curve, Limits, prove_range, recheck_range};
+use eigenring_certify::range::{Limits, StencilCurve, prove_range, recheck_range};
 use eigenring_certify::{Certificate, Check, Input, Requirement, Statement, Status, certify, recheck, recheck_text};
 use eigenring_scheme::families::catmull_clark_weights;
 use eigenring_scheme::lambda::{Bounds, Domain, LambdaTable, Relaxation};
@@ -539,21 +539,29 @@ fn refused_input_is_an_error_and_no_panic() {
     .unwrap();
     assert!(!Requirement::C1.verdict(&certificate.checks).0);
     assert!("c2".parse::<Requirement>().is_err());
-    let curve = || Curve::embedded(5).unwrap();
+    let curve = || StencilCurve::embedded(5).unwrap();
     for range in [[0.3, 0.2], [0.1, 0.5], [0.5, 0.95], [f64::NAN, 0.5], [0.4, 0.4]] {
         assert!(prove_range(5, curve(), range, Limits::default()).is_err());
     }
     assert!(
         prove_range(
             5,
-            Curve::Constant { f2: f64::NAN, f3: 0.1 },
+            StencilCurve::Constant { f2: f64::NAN, f3: 0.1 },
             [0.3, 0.4],
             Limits::default()
         )
         .is_err()
     );
     // the closed forms divide by f2
-    assert!(prove_range(6, Curve::Constant { f2: 0.0, f3: 0.0 }, [0.2, 0.9], Limits::default()).is_err());
+    assert!(
+        prove_range(
+            6,
+            StencilCurve::Constant { f2: 0.0, f3: 0.0 },
+            [0.2, 0.9],
+            Limits::default()
+        )
+        .is_err()
+    );
 }
 
 #[test]
@@ -566,7 +574,13 @@ fn ranges_agree_with_single_certificates() {
         (9, [0.48, 0.52]),
         (20, [0.86, 0.885]),
     ] {
-        let certificate = prove_range(valence, Curve::embedded(valence).unwrap(), range, Limits::default()).unwrap();
+        let certificate = prove_range(
+            valence,
+            StencilCurve::embedded(valence).unwrap(),
+            range,
+            Limits::default(),
+        )
+        .unwrap();
         assert!(recheck_range(&certificate).unwrap().confirmed(), "{valence}");
         let status_at = |check: Statement, lambda: f64| {
             let segments = certificate.segments(check);
@@ -634,7 +648,7 @@ fn ranges_agree_with_single_certificates() {
 #[test]
 fn a_curve_that_leaves_the_domain_is_refuted_where_it_does() {
     // constant weights: f3 beyond g3 = -mu for small lambda
-    let curve = Curve::Constant { f2: 0.3, f3: 0.12 };
+    let curve = StencilCurve::Constant { f2: 0.3, f3: 0.12 };
     let certificate = prove_range(8, curve, [0.45, 0.8], Limits::default()).unwrap();
     let strict = certificate.segments(Statement::Strict);
     assert!(strict.iter().any(|s| s.status == Status::Proven) && strict.iter().any(|s| s.status == Status::Refuted));

@@ -7,7 +7,7 @@
 
 use eigenring_atlas::run::{Kept, Parameters};
 use eigenring_atlas::{Error, files};
-use eigenring_tune::sweep::Sample;
+use eigenring_tune::sweep::LambdaSample;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::Write;
@@ -19,7 +19,7 @@ use std::sync::Mutex;
 pub struct Checkpoint {
     path: PathBuf,
     file: Mutex<File>,
-    known: BTreeMap<u64, Sample>,
+    known: BTreeMap<u64, LambdaSample>,
 }
 
 impl Checkpoint {
@@ -32,7 +32,7 @@ impl Checkpoint {
             let mut lines = text.lines();
             if lines.next() == Some(parameters) {
                 for line in lines {
-                    let Ok(sample) = serde_json::from_str::<Sample>(line) else {
+                    let Ok(sample) = serde_json::from_str::<LambdaSample>(line) else {
                         continue;
                     };
                     kept.push_str(line);
@@ -58,12 +58,12 @@ impl Checkpoint {
     }
 
     /// The sample at a lambda, if it is finished.
-    pub fn get(&self, lambda: f64) -> Option<&Sample> {
+    pub fn get(&self, lambda: f64) -> Option<&LambdaSample> {
         self.known.get(&lambda.to_bits())
     }
 
     /// Stores a finished sample.
-    pub fn add(&self, sample: &Sample) -> Result<(), Error> {
+    pub fn add(&self, sample: &LambdaSample) -> Result<(), Error> {
         let failed = |source| Error::Write {
             path: self.path.clone(),
             source,
@@ -94,11 +94,11 @@ impl Checkpoints {
 }
 
 impl Kept for Checkpoints {
-    fn get(&self, valence: usize, lambda: f64) -> Option<Sample> {
+    fn get(&self, valence: usize, lambda: f64) -> Option<LambdaSample> {
         self.0.get(&valence)?.get(lambda).cloned()
     }
 
-    fn add(&self, sample: &Sample) -> Result<(), Error> {
+    fn add(&self, sample: &LambdaSample) -> Result<(), Error> {
         match self.0.get(&sample.valence) {
             Some(checkpoint) => checkpoint.add(sample),
             None => Ok(()),
@@ -114,7 +114,7 @@ mod tests {
     #[test]
     fn samples_survive_a_cut_line_and_other_parameters_start_anew() {
         let folder = tempfile::tempdir().unwrap();
-        let samples: Vec<Sample> = [0.45, 0.55].map(|l| sample(5, l, &Options::default()).unwrap()).into();
+        let samples: Vec<LambdaSample> = [0.45, 0.55].map(|l| sample(5, l, &Options::default()).unwrap()).into();
         let checkpoint = Checkpoint::open(folder.path(), 5, "p").unwrap();
         for sample in &samples {
             assert_eq!(checkpoint.get(sample.lambda), None);

@@ -244,14 +244,14 @@ fn double_shift(h: &mut Matrix<Extended>, first: usize, last: usize, [x, y, w]: 
 }
 
 /// What systems of equations are solved in.
-pub(crate) trait Entry:
+pub(crate) trait Number:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
     fn size(self) -> f64;
     fn real(value: f64) -> Self;
 }
 
-impl Entry for Extended {
+impl Number for Extended {
     fn size(self) -> f64 {
         self.to_f64().abs()
     }
@@ -294,7 +294,7 @@ impl Div for Pair {
     }
 }
 
-impl Entry for Pair {
+impl Number for Pair {
     fn size(self) -> f64 {
         self.0.to_f64().hypot(self.1.to_f64())
     }
@@ -305,7 +305,7 @@ impl Entry for Pair {
 
 /// The growth of a vector under the inverse of `H - value` and of its transpose in turn, which converges to
 /// the largest singular value of the inverse from below.
-fn smallest<T: Entry>(h: &Matrix<T>, value: T) -> f64 {
+fn smallest<T: Number>(h: &Matrix<T>, value: T) -> f64 {
     let n = h.rows();
     let mut upper = Matrix::from_fn(n, n, |i, j| if i == j { h[(i, j)] - value } else { h[(i, j)] });
     let scale = upper.entries().iter().fold(0.0_f64, |max, x| max.max(x.size()));

@@ -14,7 +14,7 @@
 use crate::components::strong_components;
 use crate::eigen::{modulus, order};
 use crate::extended::{Extended, UNIT};
-use crate::hessenberg::{Entry, Hessenberg, Pair, Value};
+use crate::hessenberg::{Hessenberg, Number, Pair, Value};
 use crate::{Block, EQUAL, Error, Matrix};
 use eigenring_scheme::{Complex, Scalar};
 use faer::{Mat, c64};
@@ -297,7 +297,7 @@ fn pairs_with(
 
 /// The pivots of elimination with full pivoting of a matrix less a number, falling: as many are of the size
 /// of rounding as its null space has dimensions.
-fn pivots<T: Entry>(mut m: Matrix<T>, value: T) -> Vec<f64> {
+fn pivots<T: Number>(mut m: Matrix<T>, value: T) -> Vec<f64> {
     let n = m.rows();
     (0..n).for_each(|i| m[(i, i)] = m[(i, i)] - value);
     let mut open_columns: Vec<usize> = (0..n).collect();

@@ -19,7 +19,7 @@
 //! since its E is the lowest.
 
 use crate::search::Optimum;
-use crate::sweep::{Error, Minimum, Options, Problem, Sample, check, sample};
+use crate::sweep::{Error, LambdaSample, Minimum, Options, Problem, check, sample};
 use argmin::core::{CostFunction, Executor, State};
 use argmin::solver::brent::BrentOpt;
 use eigenring_scheme::lambda::Relaxation;
@@ -92,7 +92,7 @@ const BRENT: u64 = 60;
 /// # Errors
 /// [`Error::TooFew`] for less than three samples, [`Error::Samples`] for samples that do not belong together,
 /// and any [`Error`] about a single lambda.
-pub fn global(samples: &[Sample], options: &Options) -> Result<Global, Error> {
+pub fn global(samples: &[LambdaSample], options: &Options) -> Result<Global, Error> {
     check(samples)?;
     let [first, .., last] = samples else {
         return Err(Error::TooFew { count: samples.len() });
@@ -109,12 +109,12 @@ pub fn global(samples: &[Sample], options: &Options) -> Result<Global, Error> {
     let kinks = Relaxation::new(valence)?.kinks();
     let nodes = nodes(samples, &kinks, options)?;
     let is_kink = |lambda: f64| kinks.contains(&lambda);
-    let value = |node: &Sample| node.minima[0].total;
+    let value = |node: &LambdaSample| node.minima[0].total;
 
     let mut minima: Vec<LambdaMinimum> = Vec::new();
     for (i, node) in nodes.iter().enumerate() {
         let (before, after) = (i.checked_sub(1).map(|i| &nodes[i]), nodes.get(i + 1));
-        let lower = |other: Option<&Sample>| other.is_some_and(|other| value(other) < value(node));
+        let lower = |other: Option<&LambdaSample>| other.is_some_and(|other| value(other) < value(node));
         if !is_kink(node.lambda) {
             if !lower(before) && !lower(after) {
                 let bracket = [before.unwrap_or(node), after.unwrap_or(node)];
@@ -160,7 +160,7 @@ pub fn global(samples: &[Sample], options: &Options) -> Result<Global, Error> {
     })
 }
 
-fn at_node(node: &Sample, kind: Kind) -> LambdaMinimum {
+fn at_node(node: &LambdaSample, kind: Kind) -> LambdaMinimum {
     LambdaMinimum {
         lambda: node.lambda,
         s: node.s,
@@ -170,7 +170,7 @@ fn at_node(node: &Sample, kind: Kind) -> LambdaMinimum {
 }
 
 /// The samples and the kinks inside their range.
-fn nodes(samples: &[Sample], kinks: &[f64], options: &Options) -> Result<Vec<Sample>, Error> {
+fn nodes(samples: &[LambdaSample], kinks: &[f64], options: &Options) -> Result<Vec<LambdaSample>, Error> {
     let mut nodes = samples.to_vec();
     for &kink in kinks {
         let at = nodes.partition_point(|node| node.lambda < kink);
@@ -246,8 +246,8 @@ impl Envelope<'_> {
 
     /// The minimum inside a bracket without kinks, of which the node in it or at its end has the lowest
     /// value; `None` if there is none but the bracket's end.
-    fn bracket(&self, ends: [&Sample; 2], node: &Sample) -> Result<Option<LambdaMinimum>, Error> {
-        let lowest = |sample: &Sample| [sample.minima[0].f2, sample.minima[0].f3];
+    fn bracket(&self, ends: [&LambdaSample; 2], node: &LambdaSample) -> Result<Option<LambdaMinimum>, Error> {
+        let lowest = |sample: &LambdaSample| [sample.minima[0].f2, sample.minima[0].f3];
         let (seeds, bracket) = (
             [lowest(ends[0]), lowest(node), lowest(ends[1])],
             ends.map(|end| end.lambda),
@@ -332,7 +332,7 @@ mod tests {
             above: steps - steps / 2,
         };
         let lambdas = range.lambdas(valence).unwrap().into_iter();
-        let samples: Vec<Sample> = lambdas
+        let samples: Vec<LambdaSample> = lambdas
             .map(|lambda| sample(valence, lambda, &options).unwrap())
             .collect();
         global(&samples, &options).unwrap()
@@ -385,7 +385,7 @@ mod tests {
         assert!(optimum.kind == Kind::Regular && optimum.minimum.total < 1e-20);
         // without the candidate the search gets as near as differences can
         let options = Options::default();
-        let samples: Vec<Sample> = [0.46, 0.48, 0.497]
+        let samples: Vec<LambdaSample> = [0.46, 0.48, 0.497]
             .map(|lambda| sample(4, lambda, &options).unwrap())
             .to_vec();
         let near = global(&samples, &options).unwrap();

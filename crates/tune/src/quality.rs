@@ -65,7 +65,7 @@ impl Quality {
             );
             let mut value = 0.0;
             for component in 0..3 {
-                let h = |point: &Point| scale * point.graphs[which].hessian[component];
+                let h = |point: &QuadraturePoint| scale * point.graphs[which].hessian[component];
                 let mean = points.iter().map(|point| point.area * h(point)).sum::<f64>() * rho / area;
                 value += points
                     .iter()
@@ -107,13 +107,13 @@ impl Quality {
     }
 }
 
-struct Point {
+struct QuadraturePoint {
     /// Quadrature weight times Jacobian.
     area: f64,
     graphs: [Graph; 3],
 }
 
-fn quadrature_points(maps: &Maps, order: usize) -> Vec<Point> {
+fn quadrature_points(maps: &Maps, order: usize) -> Vec<QuadraturePoint> {
     let rule = gauss_legendre(order);
     let n = maps.annulus.numbering.fan.sectors();
     let patches = (0..n).flat_map(|sector| maps.annulus.patches(sector));
@@ -127,7 +127,7 @@ fn quadrature_points(maps: &Maps, order: usize) -> Vec<Point> {
                     let jet = |patch: &TensorPatch<f64>| patch.jet(u.at, v.at);
                     let (x, y) = (jet(&x), jet(&y));
                     let graphs = heights.each_ref().map(|z| Graph::new(&x, &y, &jet(z)));
-                    points.push(Point {
+                    points.push(QuadraturePoint {
                         area: u.weight * v.weight * graphs[0].jacobian,
                         graphs,
                     });

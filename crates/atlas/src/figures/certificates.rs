@@ -8,19 +8,19 @@
 
 use super::ranges::{Interval, stored};
 use super::valences::{Featured, axis};
-use super::{Drawing, Entry, Inputs};
+use super::{Drawing, FigureEntry, Inputs};
 use crate::certificates::TABULATED;
 use crate::error::Error;
 use crate::progress::each;
 use crate::table::Table;
 use eigenring_certify::Requirement;
-use eigenring_certify::range::{Curve, Limits, prove_range};
+use eigenring_certify::range::{Limits, StencilCurve, prove_range};
 use eigenring_figure::{Axis, Chart, Colour, Figure, Fill, Marker, Panel, Side, Stroke, Style};
 use eigenring_tune::study::LAMBDA_R1;
 
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: FigureEntry = FigureEntry {
     valences: &[3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20],
-    ..Entry::new(
+    ..FigureEntry::new(
         "certificates",
         "where the lambda-scheme's splines are proven C1 and of bounded curvature: valence against lambda",
         "none",
@@ -43,7 +43,7 @@ fn proven(inputs: &Inputs<'_>, valence: usize) -> Result<Vec<Interval>, Error> {
         return Ok(Vec::new());
     };
     let lambda = [entry.knots.a, entry.knots.e];
-    let curve = Curve::Splines {
+    let curve = StencilCurve::Splines {
         knots: entry.knots,
         f2: entry.f2.to_vec(),
         f3: entry.f3.to_vec(),

@@ -9,17 +9,17 @@
 //! drawn by their logarithms, so that all annuli are equally wide, and a few of them stand for the rest.
 
 use super::grid::{Grid, NARROWEST, narrowest};
-use super::sheet::{Point, Sheet, common_inner};
+use super::sheet::{MapPoint, Sheet, common_inner};
 use super::subject::{Subject, chosen};
-use super::{Drawing, Entry, Inputs, points};
+use super::{Drawing, FigureEntry, Inputs, points};
 use crate::error::Error;
 use eigenring_figure::{Chart, Colour, ColourMap, ColourScale, Figure, Panel, Side, Stroke, Style};
 
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: FigureEntry = FigureEntry {
     valences: &[3, 5, 8, 20],
     schemes: Some(&["catmull-clark", "lambda:optimal"]),
     colours: Some((0.0, 3.0)),
-    ..Entry::new(
+    ..FigureEntry::new(
         "characteristic-map",
         "patches of the characteristic maps coloured by the Jacobian; columns: valences, rows: schemes",
         "Reif 1995",
@@ -115,7 +115,7 @@ fn chart(sheet: &Sheet, side: f64, scale: &ColourScale) -> (Chart, bool) {
     let by_logarithms = sheet.sectors() > LARGE;
     let annuli = if by_logarithms { sheet.first(SHOWN) } else { sheet.all() };
     let turn = sheet.upright();
-    let place = |point: Point| {
+    let place = |point: MapPoint| {
         let [x, y] = turn.plane(point.plane());
         let r = x.hypot(y);
         let scale = match by_logarithms && r > 0.0 {

@@ -5,15 +5,15 @@
 //! limit. Valences stand in columns, orders in rows.
 
 use super::grid::Grid;
-use super::nets::Net;
-use super::{Drawing, Entry, Inputs};
+use super::nets::NaturalNet;
+use super::{Drawing, FigureEntry, Inputs};
 use crate::error::Error;
 use eigenring_figure::{Figure, Panel};
 use eigenring_scheme::families::tension;
 
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: FigureEntry = FigureEntry {
     valences: &[3, 6, 13, 20],
-    ..Entry::new(
+    ..FigureEntry::new(
         "characteristic-meshes",
         "eigenvectors of the tension scheme's subdominant pair, u0 = 0.01; columns: valences, rows: orders",
         "Fang, Ma and Wang, Fig. 10",
@@ -46,11 +46,11 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
         "$u_0$ = {TENSION}, refinement {} with $u_1$ = {next}",
         LEVEL + 1
     ));
-    let mut table = Net::table(&["order", "valence", "u0", "level", "lambda"]);
+    let mut table = NaturalNet::table(&["order", "valence", "u0", "level", "lambda"]);
     for (row, order) in ORDERS.into_iter().enumerate() {
         for (column, &valence) in inputs.valences.iter().enumerate() {
             let scheme = tension::<f64>(valence, order, TENSION)?;
-            let net = Net::at(&scheme, scheme.level(LEVEL), scheme.closed_rings()?)?;
+            let net = NaturalNet::at(&scheme, scheme.level(LEVEL), scheme.closed_rings()?)?;
             let of = [
                 order.into(),
                 valence.into(),
@@ -79,7 +79,7 @@ mod tests {
                 let scheme = tension::<f64>(valence, order, TENSION).unwrap();
                 let level = scheme.level(LEVEL);
                 let rings = scheme.closed_rings().unwrap().max(1);
-                let net = Net::at(&scheme, level, rings + 1).unwrap();
+                let net = NaturalNet::at(&scheme, level, rings + 1).unwrap();
                 let numbering = scheme.numbering(net.points.iter().map(|(ring, _)| *ring).max().unwrap());
                 let points = net.points.iter().map(|(_, point)| *point).collect();
                 let refined = refine(level, &PointNet { numbering, points }, &numbering.sites()).unwrap();

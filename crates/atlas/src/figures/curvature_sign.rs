@@ -5,7 +5,7 @@
 //! objective; here both are tuned at the same lambda in the same domain.
 
 use super::valences::axis;
-use super::{Drawing, Entry, Inputs};
+use super::{Drawing, FigureEntry, Inputs};
 use crate::error::Error;
 use crate::progress::each;
 use crate::table::{Cell, Table};
@@ -13,11 +13,11 @@ use eigenring_figure::{Axis, Chart, Figure, Marker, Panel, Side, Style, Width, r
 use eigenring_tune::objective::Settings;
 use eigenring_tune::sweep::{Options, Problem};
 
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: FigureEntry = FigureEntry {
     valences: &[3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20],
     lambdas: &[eigenring_tune::study::LAMBDA_A],
     width: Width::One,
-    ..Entry::new(
+    ..FigureEntry::new(
         "curvature-sign",
         "K_m, wrong signs of the Gauss curvature, against the valence: weighted and unweighted tuning",
         "Ma, Wang and Ma 2023, Fig. 13",

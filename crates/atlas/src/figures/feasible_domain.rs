@@ -5,18 +5,18 @@
 //! objective is drawn against f2.
 
 use super::grid::Grid;
-use super::{Drawing, Entry, Inputs};
+use super::{Drawing, FigureEntry, Inputs};
 use crate::error::Error;
 use crate::progress::each;
 use crate::table::Table;
 use eigenring_figure::{Axis, Chart, Colour, ColourMap, ColourScale, Figure, Marker, Panel, Side, Style, range_of};
 use eigenring_tune::sweep::Problem;
 
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: FigureEntry = FigureEntry {
     valences: &[3, 5, 8],
     lambdas: &[eigenring_tune::study::LAMBDA_A, eigenring_tune::study::LAMBDA_M],
     colours: Some((0.0, 3.0)),
-    ..Entry::new(
+    ..FigureEntry::new(
         "feasible-domain",
         "the feasible weights f2, f3 with the objective E and its minima; columns: valences, rows: lambdas",
         "Ma, Wang and Ma 2023, section 3.2",

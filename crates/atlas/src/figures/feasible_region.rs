@@ -7,16 +7,16 @@
 
 use super::ranges::{Known, known, stored};
 use super::valences::{Featured, LAMBDA_C1, axis};
-use super::{Drawing, Entry, Inputs};
+use super::{Drawing, FigureEntry, Inputs};
 use crate::error::Error;
 use crate::table::Table;
 use eigenring_figure::{Axis, Chart, Colour, Dash, Figure, MARKER, Marker, Panel, Side, Stroke, Style, Width};
 use eigenring_tune::study::{LAMBDA_A, LAMBDA_M, LAMBDA_R1, paper_row};
 
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: FigureEntry = FigureEntry {
     valences: &[3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20],
     width: Width::One,
-    ..Entry::new(
+    ..FigureEntry::new(
         "feasible-region",
         "featured lambdas and the feasible region against the valence",
         "Ma, Wang and Ma 2023, Fig. 3",

@@ -3,8 +3,8 @@
 //! To add one: a module with an `ENTRY`, listed in [`FIGURES`]; the tests here and `eigenring plot --all`
 //! then cover it.
 //!
-//! A figure is a registered [`Entry`]: a name, what it shows, what it takes, and a function from [`Inputs`]
-//! to [`Drawing`]s. Drawings are pure functions of their inputs; the command writes them. Each drawing comes
+//! A figure is a registered [`FigureEntry`]: a name, what it shows, what it takes, and a function from
+//! [`Inputs`] to [`Drawing`]s. Drawings are pure functions of their inputs; the command writes them. Each drawing comes
 //! with the tables of the numbers it shows, which are what tests compare.
 
 mod certificates;
@@ -52,7 +52,7 @@ pub struct Drawing {
 
 impl Drawing {
     /// A picture with one table, both under the figure's own name.
-    fn of(entry: &Entry, figure: Figure, table: Table) -> Self {
+    fn of(entry: &FigureEntry, figure: Figure, table: Table) -> Self {
         Drawing {
             stem: entry.name.to_owned(),
             figure,
@@ -91,7 +91,7 @@ impl Inputs<'_> {
 
 /// A registered figure.
 #[derive(Debug)]
-pub struct Entry {
+pub struct FigureEntry {
     /// What it is called on the command line.
     pub name: &'static str,
     /// What it shows.
@@ -118,7 +118,7 @@ pub struct Entry {
 }
 
 /// All figures, in the order in which they are listed.
-pub const FIGURES: &[Entry] = &[
+pub const FIGURES: &[FigureEntry] = &[
     overview::ENTRY,
     feasible_region::ENTRY,
     weighting::ENTRY,
@@ -135,7 +135,7 @@ pub const FIGURES: &[Entry] = &[
     certificates::ENTRY,
 ];
 
-impl Entry {
+impl FigureEntry {
     /// A figure over two columns that takes no options.
     const fn new(
         name: &'static str,
@@ -143,7 +143,7 @@ impl Entry {
         reference: &'static str,
         build: fn(&Inputs<'_>) -> Result<Vec<Drawing>, Error>,
     ) -> Self {
-        Entry {
+        FigureEntry {
             name,
             title,
             reference,
@@ -168,7 +168,7 @@ impl Entry {
 }
 
 /// The figure with a name.
-pub fn find(name: &str) -> Result<&'static Entry, Error> {
+pub fn find(name: &str) -> Result<&'static FigureEntry, Error> {
     FIGURES.iter().find(|entry| entry.name == name).ok_or_else(|| {
         let names: Vec<&str> = FIGURES.iter().map(|entry| entry.name).collect();
         Error::Usage {

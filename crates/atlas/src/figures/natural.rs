@@ -5,16 +5,16 @@
 //! (small lambda) or away from it; where many sectors crowd, radii are logarithmic, which the title says.
 
 use super::grid::{Grid, NARROWEST, narrowest};
-use super::nets::Net;
+use super::nets::NaturalNet;
 use super::subject::{Subject, chosen, featured};
-use super::{Drawing, Entry, Inputs};
+use super::{Drawing, FigureEntry, Inputs};
 use crate::error::Error;
 use eigenring_figure::{Figure, Panel};
 
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: FigureEntry = FigureEntry {
     valences: &[5, 8, 11],
     schemes: Some(&[]),
-    ..Entry::new(
+    ..FigureEntry::new(
         "natural-configurations",
         "control nets of the characteristic maps; columns: valences, rows: lambdas or schemes",
         "Ma, Wang and Ma 2023, Fig. 10",
@@ -34,16 +34,16 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
     });
     let columns: Vec<Vec<Subject>> = columns.collect::<Result<_, _>>()?;
     let rows = columns.iter().map(Vec::len).max().unwrap_or(0);
-    let of = |subject: &Subject| Net::new(&subject.scheme, RINGS);
+    let of = |subject: &Subject| NaturalNet::new(&subject.scheme, RINGS);
     let nets = columns.iter().map(|subjects| subjects.iter().map(of).collect());
-    let nets: Vec<Vec<Net>> = nets.collect::<Result<_, Error>>()?;
+    let nets: Vec<Vec<NaturalNet>> = nets.collect::<Result<_, Error>>()?;
     let each = || columns.iter().flatten().zip(nets.iter().flatten());
-    let title = |subject: &Subject, net: &Net| subject.full_title() + net.readable().1;
+    let title = |subject: &Subject, net: &NaturalNet| subject.full_title() + net.readable().1;
     let narrowest = narrowest(each().map(|(subject, net)| title(subject, net)), NARROWEST);
     let grid = Grid::new(rows, columns.len(), inputs.width, 0.0, narrowest);
     let height = grid.height(grid.across.min(SIDE));
     let mut figure = Figure::new(inputs.width, height, "Natural configurations");
-    let mut table = Net::table(&["scheme", "valence", "lambda"]);
+    let mut table = NaturalNet::table(&["scheme", "valence", "lambda"]);
     for (column, (subjects, nets)) in columns.iter().zip(&nets).enumerate() {
         for (row, (subject, net)) in subjects.iter().zip(nets).enumerate() {
             let of = [subject.name.as_str().into(), subject.valence.into(), net.lambda.into()];
@@ -76,7 +76,7 @@ mod tests {
         ] {
             for valence in [3, 4, 5, 20] {
                 let scheme = spec.parse::<Spec>().unwrap().scheme::<f64>(valence).unwrap();
-                let net = Net::new(&scheme, RINGS + 1).unwrap();
+                let net = NaturalNet::new(&scheme, RINGS + 1).unwrap();
                 let numbering = scheme.numbering(net.points.iter().map(|(ring, _)| *ring).max().unwrap());
                 let points = net.points.iter().map(|(_, point)| *point).collect();
                 let refined = refine(scheme.limit(), &PointNet { numbering, points }, &numbering.sites()).unwrap();

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 /// The inner rings of a natural configuration, its first point (1, 0) turned so that a sector's bisector
 /// points up.
 #[derive(Clone, Debug)]
-pub struct Net {
+pub struct NaturalNet {
     /// The subdominant eigenvalue.
     pub lambda: f64,
     /// Points with their rings, in the order of the numbering.
@@ -21,10 +21,10 @@ pub struct Net {
     centre: bool,
 }
 
-impl Net {
+impl NaturalNet {
     /// As many rings of faces as given around a vertex, half a ring less around a face.
     pub fn new(scheme: &Scheme<f64>, rings: usize) -> Result<Self, Error> {
-        Net::at(scheme, scheme.limit(), rings)
+        NaturalNet::at(scheme, scheme.limit(), rings)
     }
 
     /// The net of one of the scheme's levels.
@@ -38,7 +38,7 @@ impl Net {
         let turn = Turn::upright(numbering.lattice, sectors);
         let points = numbering.sites().into_iter().enumerate();
         let points = points.map(|(index, site)| (site.ring(), turn.plane([x[index], y[index]])));
-        let mut net = Net {
+        let mut net = NaturalNet {
             lambda,
             points: points.collect(),
             faces: Vec::new(),
@@ -83,7 +83,7 @@ impl Net {
     /// The net as it can be read, and what a title adds if that is not the net itself: where many sectors
     /// crowd around the centre, radii become `log(1 + r/r_1)`, with r_1 the smallest of ring 1, in proportion
     /// to the rim; edges join their points as before.
-    pub fn readable(&self) -> (Net, &'static str) {
+    pub fn readable(&self) -> (NaturalNet, &'static str) {
         let around = |ring: usize| self.points.iter().filter(move |point| point.0 == ring);
         let radii = around(1).map(|(_, [x, y])| x.hypot(*y));
         let first = radii.fold(f64::INFINITY, f64::min);
@@ -101,7 +101,7 @@ impl Net {
             };
             [scale * x, scale * y]
         };
-        let net = Net {
+        let net = NaturalNet {
             points: self.points.iter().map(|&(ring, point)| (ring, place(point))).collect(),
             faces: self
                 .faces
@@ -215,7 +215,7 @@ mod tests {
 
     #[test]
     fn the_regular_net_is_the_integer_grid() {
-        let net = Net::new(&catmull_clark(4).unwrap(), 3).unwrap();
+        let net = NaturalNet::new(&catmull_clark(4).unwrap(), 3).unwrap();
         assert_eq!((net.points.len(), net.faces.len()), (49, 36));
         assert!(
             (net.radius() - 3.0 * 2f64.sqrt()).abs() < 1e-9,
@@ -243,11 +243,11 @@ mod tests {
             ("lambda:lambda=0.35", 12, false),
             ("lambda:optimal", 20, false),
         ] {
-            let net = Net::new(&scheme(spec, valence), 3).unwrap();
+            let net = NaturalNet::new(&scheme(spec, valence), 3).unwrap();
             let (drawn, title) = net.readable();
             assert_eq!(!title.is_empty(), crowded, "{spec} {valence}");
             assert!(crowded || drawn.points == net.points);
-            let polar = |net: &Net, i: usize| {
+            let polar = |net: &NaturalNet, i: usize| {
                 let [x, y] = net.points[i].1;
                 (x.hypot(y), y.atan2(x))
             };
@@ -264,7 +264,7 @@ mod tests {
     #[test]
     fn one_face_for_each_pair_of_coordinates_and_sector() {
         for valence in [3, 5, 20] {
-            let net = Net::new(&catmull_clark(valence).unwrap(), 3).unwrap();
+            let net = NaturalNet::new(&catmull_clark(valence).unwrap(), 3).unwrap();
             assert_eq!(net.faces.len(), 9 * valence);
             assert_eq!(net.points.len(), 1 + 12 * valence);
             // Euler: V - E + F = 1 of a disc

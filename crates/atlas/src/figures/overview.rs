@@ -3,18 +3,18 @@
 //! For one valence the splines of f2 and f3 with the tuned samples and the featured lambdas; these against
 //! the valence; and three natural configurations, each drawn to the same size.
 
-use super::nets::Net;
-use super::{Drawing, Entry, Inputs, feasible_region, sweep};
+use super::nets::NaturalNet;
+use super::{Drawing, FigureEntry, Inputs, feasible_region, sweep};
 use crate::error::Error;
 use eigenring_figure::{Axis, Chart, Colour, Figure, Marker, Panel, Side, Style};
-use eigenring_scheme::lambda::{Entry as Splines, Relaxation};
+use eigenring_scheme::lambda::{LambdaEntry as Splines, Relaxation};
 use eigenring_tune::study::{LAMBDA_A, LAMBDA_M};
 
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: FigureEntry = FigureEntry {
     valences: &[6],
     range: true,
     studies: true,
-    ..Entry::new(
+    ..FigureEntry::new(
         "overview",
         "f2 and f3 against lambda, featured lambdas against the valence, natural configurations",
         "Ma, Wang and Ma 2023, Fig. 1",
@@ -70,7 +70,7 @@ fn draw(valence: usize, inputs: &Inputs<'_>) -> Result<Drawing, Error> {
         figure = figure.wide_panel(0, 0, 6, weights).wide_panel(1, 0, 6, region);
         2
     };
-    let mut nets = Net::table(&["symbol", "lambda", "f2", "f3"]);
+    let mut nets = NaturalNet::table(&["symbol", "lambda", "f2", "f3"]);
     let shown = [
         ("$λ_A^*$", LAMBDA_A),
         ("$λ_M^*$", LAMBDA_M),
@@ -105,11 +105,11 @@ fn draw(valence: usize, inputs: &Inputs<'_>) -> Result<Drawing, Error> {
 }
 
 /// The natural configuration of the spline stencil at lambda, and the stencil's f2 and f3.
-fn net(splines: &Splines, lambda: f64) -> Result<(Net, [f64; 2]), Error> {
+fn net(splines: &Splines, lambda: f64) -> Result<(NaturalNet, [f64; 2]), Error> {
     let valence = splines.valence;
     let (f2, f3) = splines.weights(lambda)?;
     let mut plane = Relaxation::new(valence)?.plane(lambda)?;
     plane.phi = splines.phi;
     let scheme = plane.stencil(f2, f3).weights.scheme("lambda", valence)?;
-    Ok((Net::new(&scheme, RINGS)?, [f2, f3]))
+    Ok((NaturalNet::new(&scheme, RINGS)?, [f2, f3]))
 }

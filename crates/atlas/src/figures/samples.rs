@@ -3,20 +3,20 @@
 //! The objective and the weights of the tuned samples (the paper's superscript #) beside those of the
 //! splines. Where the paper draws the curve (f2, f3, E) in space, the angle theta has a panel of its own.
 
-use super::{Drawing, Entry, Inputs, sweep};
+use super::{Drawing, FigureEntry, Inputs, sweep};
 use crate::error::Error;
 use crate::table::Table;
 use eigenring_figure::{Axis, Chart, Colour, Dash, Figure, Marker, Panel, Side, Stroke, Style, decades_of, range_of};
-use eigenring_scheme::lambda::{Entry as Splines, Relaxation};
+use eigenring_scheme::lambda::{LambdaEntry as Splines, Relaxation};
 use eigenring_tune::objective::Objective;
 use eigenring_tune::study::TINY;
 use eigenring_tune::sweep::BranchSample;
 
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: FigureEntry = FigureEntry {
     valences: &[3, 6, 20],
     range: true,
     studies: true,
-    ..Entry::new(
+    ..FigureEntry::new(
         "samples",
         "samples and splines of f2 and f3, their errors, E, s and theta, one picture for each valence",
         "Ma, Wang and Ma 2023, Fig. 6",
@@ -94,7 +94,12 @@ fn draw(valence: usize, inputs: &Inputs<'_>) -> Result<Drawing, Error> {
     })
 }
 
-fn charts(splines: &Splines, points: &[sweep::Point], pairs: &[Pair<'_>], inputs: &Inputs<'_>) -> Vec<(String, Chart)> {
+fn charts(
+    splines: &Splines,
+    points: &[sweep::SweepPoint],
+    pairs: &[Pair<'_>],
+    inputs: &Inputs<'_>,
+) -> Vec<(String, Chart)> {
     let chart = |y: Axis| Chart::new(sweep::lambda_axis(inputs, false), y.with_grid());
     let [f2, f3, other] = [sweep::F2, sweep::F3, 2];
     let marked = |index: usize| {

@@ -9,17 +9,17 @@
 
 use super::characteristic::resolution;
 use super::grid::{Grid, NARROWEST, narrowest};
-use super::sheet::{Point, Sheet, common_inner};
+use super::sheet::{MapPoint, Sheet, common_inner};
 use super::subject::{Subject, chosen};
-use super::{Drawing, Entry, Inputs, points};
+use super::{Drawing, FigureEntry, Inputs, points};
 use crate::error::Error;
 use eigenring_figure::{Colour, ColourMap, ColourScale, Figure, Panel, Stroke, Surface, View};
 
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: FigureEntry = FigureEntry {
     valences: &[3, 6, 20],
     schemes: Some(&["catmull-clark", "lambda:optimal"]),
     colours: Some((-2.0, 2.0)),
-    ..Entry::new(
+    ..FigureEntry::new(
         "second-order-maps",
         "cup and saddles in space, coloured by the Gauss curvature, wrong signs outlined; rows: schemes",
         "Ma, Wang and Ma 2023, Fig. 4b",
@@ -124,7 +124,7 @@ fn surface(sheet: &Sheet, sign: f64, scale: &ColourScale) -> Surface {
     // the cup stands upright, whichever sign its mode has
     let upright = if sign > 0.0 && high < -low { -1.0 } else { 1.0 };
     let vertical = upright * if high > low { HEIGHT / (high - low) } else { 1.0 };
-    let place = |point: Point| [point.x / radius, point.y / radius, vertical * point.z];
+    let place = |point: MapPoint| [point.x / radius, point.y / radius, vertical * point.z];
     let annuli = sheet.all();
     let fan = annuli.last().into_iter().flat_map(Sheet::fan);
     let quads = annuli.iter().flat_map(Sheet::quads).chain(fan).map(|quad| {

@@ -8,17 +8,17 @@
 
 use super::grid::Grid;
 use super::subject::{Subject, chosen};
-use super::{Drawing, Entry, Inputs};
+use super::{Drawing, FigureEntry, Inputs};
 use crate::error::Error;
 use crate::table::Table;
 use eigenring_figure::{Anchor, Axis, Chart, Colour, Dash, Figure, Marker, Panel, Side, Stroke, Style, decades_of};
 use eigenring_scheme::Corner;
 use eigenring_spectral::{Eigenvalue, Spectrum, Sufficient};
 
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: FigureEntry = FigureEntry {
     valences: &[5, 8],
     schemes: Some(&["catmull-clark", "doo-sabin", "tension:order=8", "lambda:optimal"]),
-    ..Entry::new(
+    ..FigureEntry::new(
         "spectrum",
         "moduli of the eigenvalues by Fourier index; columns: valences, rows: schemes",
         "Doo and Sabin 1978",

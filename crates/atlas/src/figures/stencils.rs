@@ -1,14 +1,14 @@
 //! The spline stencils of several valences, with what is feasible and recommended: Ma, Wang and Ma (2023),
 //! Fig. 7.
 
-use super::{Drawing, Entry, Inputs, sweep};
+use super::{Drawing, FigureEntry, Inputs, sweep};
 use crate::error::Error;
 use eigenring_figure::{Axis, Chart, Figure, Panel, Side};
 
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: FigureEntry = FigureEntry {
     valences: &[3, 5, 6, 8, 12, 20],
     range: true,
-    ..Entry::new(
+    ..FigureEntry::new(
         "stencils",
         "spline stencils f2(lambda), f3(lambda) of several valences in their feasible domains",
         "Ma, Wang and Ma 2023, Fig. 7",

@@ -5,7 +5,7 @@ use crate::files;
 use crate::progress::Progress;
 use crate::results::{EVERYTHING, FOLDER, FORMAT_VERSION, Results};
 use crate::run::{Parameters, studies};
-use eigenring_scheme::lambda::{Entry, LambdaTable};
+use eigenring_scheme::lambda::{LambdaEntry, LambdaTable};
 use eigenring_tune::study::{Knots, Study};
 use eigenring_tune::sweep::{Options, Range};
 use std::collections::BTreeMap;
@@ -78,7 +78,7 @@ impl Studies {
 
     /// The splines and featured values of a valence: stored ones, else the embedded ones; `None` where there
     /// are neither.
-    pub fn entry(&self, valence: usize) -> Result<Option<Entry>, Error> {
+    pub fn entry(&self, valence: usize) -> Result<Option<LambdaEntry>, Error> {
         if let Some(study) = self.by_valence.get(&valence) {
             return Ok(Some(self.parameters.entry(study)));
         }

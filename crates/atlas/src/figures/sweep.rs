@@ -4,7 +4,7 @@ use super::{Inputs, Studies};
 use crate::error::Error;
 use crate::table::{Cell, Table};
 use eigenring_figure::{Axis, Chart, Colour, Dash, Fill, Stroke};
-use eigenring_scheme::lambda::{Domain, Entry, Relaxation};
+use eigenring_scheme::lambda::{Domain, LambdaEntry, Relaxation};
 use eigenring_tune::objective::Objective;
 use eigenring_tune::study::{LAMBDA_A, LAMBDA_M, lambda_catmull_clark};
 use eigenring_tune::sweep::Options;
@@ -16,7 +16,7 @@ pub fn lambda_axis(inputs: &Inputs<'_>, label: bool) -> Axis {
 
 /// The axis for one valence. At large ones the lambdas above lambda_l, a third of the samples, are a small
 /// part of the range: they get a wider scale of their own.
-pub fn own_axis(inputs: &Inputs<'_>, entry: &Entry, label: bool) -> Axis {
+pub fn own_axis(inputs: &Inputs<'_>, entry: &LambdaEntry, label: bool) -> Axis {
     let axis = lambda_axis(inputs, label);
     let part = (inputs.range.1 - entry.lambda_l) / (inputs.range.1 - inputs.range.0);
     match part < CROWDED {
@@ -45,7 +45,7 @@ pub const F2: usize = 0;
 pub const F3: usize = 1;
 
 /// The featured values that are marked along lambda, as symbols.
-pub fn featured(entry: &Entry) -> [(&'static str, f64); 7] {
+pub fn featured(entry: &LambdaEntry) -> [(&'static str, f64); 7] {
     [
         ("$λ_{r1}$", entry.lambda_r1),
         ("$λ_A^*$", LAMBDA_A),
@@ -67,7 +67,7 @@ pub fn rule() -> Stroke {
 
 /// Shades the recommended region and marks the featured values, with their symbols above the frame or
 /// without.
-pub fn mark(chart: Chart, entry: &Entry, symbols: bool) -> Chart {
+pub fn mark(chart: Chart, entry: &LambdaEntry, symbols: bool) -> Chart {
     let chart = chart
         .span(entry.lambda_r1, entry.lambda_r2, Colour::SHADE)
         .label("recommended $λ$");
@@ -78,7 +78,7 @@ pub fn mark(chart: Chart, entry: &Entry, symbols: bool) -> Chart {
 
 /// The spline stencil at one lambda, with what is feasible there.
 #[derive(Clone, Debug)]
-pub struct Point {
+pub struct SweepPoint {
     pub lambda: f64,
     pub s: f64,
     pub f2: f64,
@@ -96,8 +96,8 @@ pub struct Point {
 /// Equal steps of lambda over the range shown.
 const STEPS: usize = 400;
 
-impl Point {
-    fn new(entry: &Entry, lambda: f64, options: &Options) -> Result<Self, Error> {
+impl SweepPoint {
+    fn new(entry: &LambdaEntry, lambda: f64, options: &Options) -> Result<Self, Error> {
         let mut plane = Relaxation::new(entry.valence)?.plane(lambda)?;
         plane.phi = options.phi;
         let (f2, f3) = entry.weights(lambda)?;
@@ -105,7 +105,7 @@ impl Point {
         let f3_range = domain.f3_range().map(|end| end.f3);
         // where f3 lies on its bound, rounding must not put it outside
         let row = f3.clamp(f3_range[0], f3_range[1]);
-        Ok(Point {
+        Ok(SweepPoint {
             lambda,
             s: plane.s,
             f2,
@@ -124,7 +124,7 @@ impl Point {
 
 /// The spline stencils over the range shown, as far as they are defined; kinks and knots are among the
 /// lambdas.
-pub fn curve(valence: usize, inputs: &Inputs<'_>) -> Result<(Entry, Vec<Point>), Error> {
+pub fn curve(valence: usize, inputs: &Inputs<'_>) -> Result<(LambdaEntry, Vec<SweepPoint>), Error> {
     let studies: &Studies = inputs.studies;
     let options = studies.options();
     let entry = studies.entry(valence)?.ok_or_else(|| Error::Range {
@@ -152,7 +152,9 @@ pub fn curve(valence: usize, inputs: &Inputs<'_>) -> Result<(Entry, Vec<Point>),
         .collect();
     lambdas.sort_by(f64::total_cmp);
     lambdas.dedup();
-    let points = lambdas.into_iter().map(|lambda| Point::new(&entry, lambda, &options));
+    let points = lambdas
+        .into_iter()
+        .map(|lambda| SweepPoint::new(&entry, lambda, &options));
     let points = points.collect::<Result<_, _>>()?;
     Ok((entry, points))
 }
@@ -166,7 +168,7 @@ pub fn curve_table() -> Table {
 }
 
 /// Adds the points of one valence.
-pub fn push_curve(table: &mut Table, valence: usize, points: &[Point]) {
+pub fn push_curve(table: &mut Table, valence: usize, points: &[SweepPoint]) {
     for p in points {
         let interval = |k: usize, end: usize| Cell::from(p.f2_ranges.get(k).map(|range| range[end]));
         let mut row: Vec<Cell> = vec![valence.into()];
@@ -190,7 +192,7 @@ pub fn push_curve(table: &mut Table, valence: usize, points: &[Point]) {
 
 /// Adds what is feasible, and the splines, of f2 and f3. Where both are feasible, f3's hatching lies over
 /// f2's colour.
-pub fn draw_weights(chart: Chart, points: &[Point]) -> Chart {
+pub fn draw_weights(chart: Chart, points: &[SweepPoint]) -> Chart {
     let plain = Fill::Plain(Colour::line(F2).mix(Colour::WHITE, 0.7));
     let hatched = Fill::Hatched(Colour::line(F3).mix(Colour::WHITE, 0.35));
     let band = |k: usize| {
@@ -219,7 +221,7 @@ pub fn style(index: usize) -> eigenring_figure::Style {
 }
 
 /// The largest weight or feasible weight, for the axis.
-pub fn largest(points: &[Point]) -> f64 {
+pub fn largest(points: &[SweepPoint]) -> f64 {
     let ends = points.iter().flat_map(|p| {
         [p.f2, p.f3, p.f3_range[1]]
             .into_iter()

@@ -6,13 +6,13 @@
 //! degree k-1.
 
 use super::grid::Grid;
-use super::{Drawing, Entry, Inputs};
+use super::{Drawing, FigureEntry, Inputs};
 use crate::error::Error;
 use crate::table::Table;
 use eigenring_figure::{Chart, Colour, Dash, Figure, Marker, Panel, Side, Stroke, Style, range_of};
 use eigenring_spline::curve::{Curve, Ends};
 
-pub const ENTRY: Entry = Entry::new(
+pub const ENTRY: FigureEntry = FigureEntry::new(
     "tension-curves",
     "one polygon, curves of several tensions and orders",
     "Fang, Ma and Wang, Eqs. 1 and 2",

@@ -24,7 +24,7 @@ const USUAL: Asked<'_> = Asked {
 };
 
 /// The drawings of a figure, with what it takes of what is asked for.
-fn draw(entry: &Entry, asked: &Asked<'_>, studies: &Studies) -> Vec<Drawing> {
+fn draw(entry: &FigureEntry, asked: &Asked<'_>, studies: &Studies) -> Vec<Drawing> {
     let schemes = match asked.schemes.filter(|_| entry.schemes.is_some()) {
         Some(specs) => specs.iter().map(|spec| spec.parse().unwrap()).collect(),
         None => entry.default_schemes().unwrap(),
@@ -45,7 +45,7 @@ fn draw(entry: &Entry, asked: &Asked<'_>, studies: &Studies) -> Vec<Drawing> {
     (entry.build)(&inputs).unwrap_or_else(|error| panic!("{} {asked:?}: {error}", entry.name))
 }
 
-fn is_readable(entry: &Entry, asked: &Asked<'_>, studies: &Studies) {
+fn is_readable(entry: &FigureEntry, asked: &Asked<'_>, studies: &Studies) {
     for drawing in draw(entry, asked, studies) {
         let layout = drawing.figure.layout().unwrap();
         let faults = layout.faults();

@@ -3,13 +3,13 @@
 //! Eqs. 16 and 17, `r(K, e) = (K + sqrt(K^2 + 4 e^2))/2` and `w = r(K, n e)/r(K, e)`, straight from their
 //! definition. K is in units of the ideal map's |ac - b^2|, as in Eq. 20.
 
-use super::{Drawing, Entry, Inputs};
+use super::{Drawing, FigureEntry, Inputs};
 use crate::error::Error;
 use crate::table::{Cell, Table};
 use eigenring_figure::{Axis, Chart, Colour, Figure, Panel, Side, Stroke, Style};
 use eigenring_tune::objective::Settings;
 
-pub const ENTRY: Entry = Entry::new(
+pub const ENTRY: FigureEntry = FigureEntry::new(
     "weighting",
     "regularisation r(K, epsilon) and weight w(K, epsilon, n) of the objective",
     "Ma, Wang and Ma 2023, Fig. 5",

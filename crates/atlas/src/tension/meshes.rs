@@ -14,7 +14,7 @@ use eigenring_scheme::families::tension;
 use eigenring_spectral::{LocalSystem, Natural};
 
 /// A control point in the plane.
-pub struct Point {
+pub struct ControlPoint {
     case: Case,
     level: usize,
     site: Site,
@@ -26,12 +26,12 @@ pub struct Point {
 ///
 /// # Errors
 /// Those of the scheme and its local system; [`Error::Spectral`] if the eigenvalue has not one vector.
-pub fn points(case: &Case, level: usize) -> Result<Vec<Point>, Error> {
+pub fn points(case: &Case, level: usize) -> Result<Vec<ControlPoint>, Error> {
     let scheme = tension::<f64>(case.valence, case.order, case.u0)?;
     let system = LocalSystem::new(scheme.level(level), scheme.closed_rings()?)?;
     let Natural { points: [x, y], .. } = system.natural()?;
     let points = system.numbering().sites().into_iter().zip(x.into_iter().zip(y));
-    let point = |(site, (x, y))| Point {
+    let point = |(site, (x, y))| ControlPoint {
         case: case.clone(),
         level,
         site,
@@ -42,9 +42,9 @@ pub fn points(case: &Case, level: usize) -> Result<Vec<Point>, Error> {
 }
 
 /// The points as they are stored.
-pub fn table(points: impl Iterator<Item = Point>) -> Table {
+pub fn table(points: impl Iterator<Item = ControlPoint>) -> Table {
     let mut table = Table::new(["order", "valence", "u0", "level", "sector", "a", "b", "x", "y"]);
-    for Point {
+    for ControlPoint {
         case,
         level,
         site,

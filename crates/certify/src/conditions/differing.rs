@@ -22,7 +22,7 @@
 
 use super::named;
 use crate::linear::Eigenvalue;
-use crate::spectral::{Entry, Spectrum};
+use crate::spectral::{EnclosedEigenvalue, EnclosedSpectrum};
 use crate::{Check, Interval, Statement, Witness};
 
 /// The pair of subdominant eigenvalues.
@@ -38,7 +38,7 @@ pub struct Leading {
 }
 
 /// `dominant`, of rules whose rows sum to 1.
-pub fn dominant(spectrum: &Spectrum) -> Check {
+pub fn dominant(spectrum: &EnclosedSpectrum) -> Check {
     let check = super::dominant(spectrum);
     match (&spectrum.coordinates, check.margin, check.enclosure) {
         // 1/2 is an eigenvalue too
@@ -50,7 +50,7 @@ pub fn dominant(spectrum: &Spectrum) -> Check {
 }
 
 /// `subdominant`, and the pair if it was proven.
-pub fn subdominant(spectrum: &Spectrum) -> (Check, Option<Leading>) {
+pub fn subdominant(spectrum: &EnclosedSpectrum) -> (Check, Option<Leading>) {
     match &spectrum.coordinates {
         Some(parts) => plane(spectrum, parts),
         None => distinct(spectrum),
@@ -63,7 +63,7 @@ fn open(text: String) -> (Check, Option<Leading>) {
     (Check::undecided(SUBDOMINANT, text), None)
 }
 
-fn plane(spectrum: &Spectrum, parts: &[Vec<Interval>; 2]) -> (Check, Option<Leading>) {
+fn plane(spectrum: &EnclosedSpectrum, parts: &[Vec<Interval>; 2]) -> (Check, Option<Leading>) {
     let half = Interval::point(0.5);
     let (other, _) = spectrum.largest_other(&[]).unwrap_or((Interval::point(0.0), 0));
     if !other.certainly_lt(half) {
@@ -83,7 +83,7 @@ fn plane(spectrum: &Spectrum, parts: &[Vec<Interval>; 2]) -> (Check, Option<Lead
     (check, Some(leading))
 }
 
-fn distinct(spectrum: &Spectrum) -> (Check, Option<Leading>) {
+fn distinct(spectrum: &EnclosedSpectrum) -> (Check, Option<Leading>) {
     let mut order: Vec<usize> = (0..spectrum.entries.len()).collect();
     let modulus = |position: usize| spectrum.entries[position].value.modulus();
     order.sort_by(|&a, &b| modulus(b).mid().total_cmp(&modulus(a).mid()));
@@ -132,12 +132,12 @@ fn distinct(spectrum: &Spectrum) -> (Check, Option<Leading>) {
 
 /// `bounded_curvature`; see the module page. `tending` says that levels tend to the limit level like `4^-l`,
 /// by which the part of lambda_1 leaves one of the size of `(lambda_1/4)^l` in all others.
-pub fn curvature(spectrum: &Spectrum, leading: &Leading, tending: bool) -> Check {
+pub fn curvature(spectrum: &EnclosedSpectrum, leading: &Leading, tending: bool) -> Check {
     const NAME: Statement = Statement::BoundedCurvature;
     let [larger, smaller] = leading.values.map(Interval::square);
     let others = spectrum.entries.iter().enumerate();
     let others = others.filter(|(position, _)| !leading.positions.contains(position));
-    let mut beyond: Vec<&Entry> = others
+    let mut beyond: Vec<&EnclosedEigenvalue> = others
         .map(|(_, entry)| entry)
         .filter(|entry| entry.value.is_real() && larger.certainly_lt(entry.value.modulus()))
         .collect();

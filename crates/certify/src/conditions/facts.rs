@@ -1,7 +1,7 @@
 //! Equalities of eigenvalues, decided by exact polynomials.
 
 use crate::exact::{self, Field, Poly, block_polynomial};
-use crate::spectral::{Entry, Spectrum};
+use crate::spectral::{EnclosedEigenvalue, EnclosedSpectrum};
 use crate::{Interval, Subject};
 use std::collections::BTreeMap;
 
@@ -64,7 +64,7 @@ impl<'a> Facts<'a> {
     }
 
     /// Whether an eigenvalue of a block is repeated already on one ring more than the smallest net.
-    pub fn repeated(&mut self, spectrum: &Spectrum, entry: &Entry) -> Option<bool> {
+    pub fn repeated(&mut self, spectrum: &EnclosedSpectrum, entry: &EnclosedEigenvalue) -> Option<bool> {
         let rings = self.subject.scheme.closed_rings().ok()? + 1;
         if !within(spectrum, entry, rings) {
             return None;
@@ -81,7 +81,7 @@ impl<'a> Facts<'a> {
 }
 
 /// Whether an eigenvalue is one of the smaller block on `rings` rings: that of a component inside them.
-pub fn within(spectrum: &Spectrum, entry: &Entry, rings: usize) -> bool {
+pub fn within(spectrum: &EnclosedSpectrum, entry: &EnclosedEigenvalue, rings: usize) -> bool {
     let block = spectrum.block(entry.index).filter(|block| block.is_real());
     block.is_some_and(|block| block.ring(entry.component) <= rings)
 }

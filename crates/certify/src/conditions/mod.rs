@@ -18,7 +18,7 @@
 //!
 //! **What refutes.** These statements are sufficient for C1; one that does not hold is *undecided* unless a
 //! theorem says that the surface is not C1, or its curvature not bounded, with an eigenvector that the
-//! surface is proven to see ([`Spectrum::sees`](crate::spectral::Spectrum::sees)) as its witness:
+//! surface is proven to see ([`sees`](crate::spectral::EnclosedSpectrum::sees)) as its witness:
 //!
 //! * `dominant`: an eigenvalue other than the constant vector's has a modulus of 1 or more. Data with a part
 //!   in its eigenvector, which almost all have, do not converge to a point at the centre (Peters and Reif
@@ -39,7 +39,7 @@ mod second_order;
 pub use facts::Facts;
 pub use second_order::second_order;
 
-use crate::spectral::{Entry, Spectrum};
+use crate::spectral::{EnclosedEigenvalue, EnclosedSpectrum};
 use crate::{Check, Interval, Statement, Subject, Witness};
 
 /// The subdominant eigenvalue.
@@ -52,7 +52,7 @@ pub struct Subdominant {
 }
 
 /// `dominant`, of rules whose rows sum to 1.
-pub fn dominant(spectrum: &Spectrum) -> Check {
+pub fn dominant(spectrum: &EnclosedSpectrum) -> Check {
     const NAME: Statement = Statement::Dominant;
     let one = Interval::point(1.0);
     let outside = spectrum
@@ -81,12 +81,12 @@ pub fn dominant(spectrum: &Spectrum) -> Check {
     }
 }
 
-fn named(witness: Witness, entry: &Entry) -> Witness {
+fn named(witness: Witness, entry: &EnclosedEigenvalue) -> Witness {
     witness.with("re", entry.value.re).with("im", entry.value.im)
 }
 
 /// `subdominant`, and the eigenvalue if it was proven.
-pub fn subdominant(subject: &Subject, spectrum: &Spectrum, facts: &mut Facts) -> (Check, Option<Subdominant>) {
+pub fn subdominant(subject: &Subject, spectrum: &EnclosedSpectrum, facts: &mut Facts) -> (Check, Option<Subdominant>) {
     const NAME: Statement = Statement::Subdominant;
     let open = |text: String| (Check::undecided(NAME, text), None);
     let refuted = |witness: Witness| (Check::refuted(NAME, witness), None);
@@ -97,7 +97,7 @@ pub fn subdominant(subject: &Subject, spectrum: &Spectrum, facts: &mut Facts) ->
         }
         None => return open("the rules differ from sector to sector".into()),
     }
-    let of_index_1 = |&(_, entry): &(usize, &Entry)| entry.index == 1;
+    let of_index_1 = |&(_, entry): &(usize, &EnclosedEigenvalue)| entry.index == 1;
     let entries = || spectrum.entries.iter().enumerate();
     let Some((position, leading)) = entries()
         .filter(of_index_1)
@@ -114,7 +114,7 @@ pub fn subdominant(subject: &Subject, spectrum: &Spectrum, facts: &mut Facts) ->
     } else {
         leading.value.modulus()
     };
-    let beside = |index: usize| move |entry: &&Entry| entry.index == index;
+    let beside = |index: usize| move |entry: &&EnclosedEigenvalue| entry.index == index;
     // larger than all of block 1, wherever it is
     let reach = entries()
         .filter(of_index_1)

@@ -4,7 +4,7 @@
 use super::facts::{Facts, within};
 use super::{Subdominant, named};
 use crate::linear::Eigenvalue;
-use crate::spectral::{Entry, Spectrum};
+use crate::spectral::{EnclosedEigenvalue, EnclosedSpectrum};
 use crate::{Check, Interval, Statement, Subject, Witness};
 
 /// The eigenvalues that are exactly `lambda^2` and without Jordan block: their positions among the entries,
@@ -16,7 +16,7 @@ struct Squares {
     without: Vec<usize>,
 }
 
-fn squares(subject: &Subject, spectrum: &Spectrum, lambda: &Subdominant, facts: &mut Facts) -> Squares {
+fn squares(subject: &Subject, spectrum: &EnclosedSpectrum, lambda: &Subdominant, facts: &mut Facts) -> Squares {
     let square = lambda.value.square();
     let valence = subject.scheme.valence();
     let mut found = Squares {
@@ -101,7 +101,12 @@ fn squares(subject: &Subject, spectrum: &Spectrum, lambda: &Subdominant, facts: 
 }
 
 /// `bounded_curvature`, `non_degenerate` and `strict`.
-pub fn second_order(subject: &Subject, spectrum: &Spectrum, lambda: &Subdominant, facts: &mut Facts) -> [Check; 3] {
+pub fn second_order(
+    subject: &Subject,
+    spectrum: &EnclosedSpectrum,
+    lambda: &Subdominant,
+    facts: &mut Facts,
+) -> [Check; 3] {
     let valence = subject.scheme.valence();
     let squares = squares(subject, spectrum, lambda, facts);
     [
@@ -111,17 +116,17 @@ pub fn second_order(subject: &Subject, spectrum: &Spectrum, lambda: &Subdominant
     ]
 }
 
-fn bounded(spectrum: &Spectrum, lambda: &Subdominant, squares: &Squares) -> Check {
+fn bounded(spectrum: &EnclosedSpectrum, lambda: &Subdominant, squares: &Squares) -> Check {
     const NAME: Statement = Statement::BoundedCurvature;
     let square = lambda.value.square();
-    let ratio = |entry: &Entry| entry.value.modulus() / square;
+    let ratio = |entry: &EnclosedEigenvalue| entry.value.modulus() / square;
     let others = || {
         let all = spectrum.entries.iter().enumerate();
         all.filter(|(position, _)| *position != lambda.position)
             .map(|(_, entry)| entry)
     };
     let larger = others().filter(|entry| square.certainly_lt(entry.value.modulus()) && entry.value.is_real());
-    let mut larger: Vec<&Entry> = larger.collect();
+    let mut larger: Vec<&EnclosedEigenvalue> = larger.collect();
     larger.sort_by(|a, b| b.value.modulus().lo().total_cmp(&a.value.modulus().lo()));
     if let Some(entry) = larger.into_iter().find(|entry| spectrum.sees(entry)) {
         let text = format!(
@@ -161,12 +166,12 @@ fn second_order_indices(valence: usize) -> [usize; 2] {
     if valence == 3 { [0, 1] } else { [0, 2] }
 }
 
-fn non_degenerate(valence: usize, spectrum: &Spectrum, lambda: &Subdominant, squares: &Squares) -> Check {
+fn non_degenerate(valence: usize, spectrum: &EnclosedSpectrum, lambda: &Subdominant, squares: &Squares) -> Check {
     const NAME: Statement = Statement::NonDegenerate;
     let square = lambda.value.square();
     for index in second_order_indices(valence) {
         let others = spectrum.entries.iter().enumerate();
-        let mut in_block: Vec<&Entry> = others
+        let mut in_block: Vec<&EnclosedEigenvalue> = others
             .filter(|(position, e)| *position != lambda.position && e.index == index)
             .map(|(_, entry)| entry)
             .collect();
@@ -209,7 +214,7 @@ fn non_degenerate(valence: usize, spectrum: &Spectrum, lambda: &Subdominant, squ
         .remark("eigenvalue lambda^2 in the blocks of index 0, 2 and N-2")
 }
 
-fn strict(subject: &Subject, spectrum: &Spectrum, lambda: &Subdominant, squares: &Squares) -> Check {
+fn strict(subject: &Subject, spectrum: &EnclosedSpectrum, lambda: &Subdominant, squares: &Squares) -> Check {
     const NAME: Statement = Statement::Strict;
     let valence = subject.scheme.valence();
     let sharp = |position: usize| -> Eigenvalue {
@@ -273,7 +278,7 @@ fn strict(subject: &Subject, spectrum: &Spectrum, lambda: &Subdominant, squares:
     };
     let ratio = other / mu;
     // within a block the chosen ones must be known to come first
-    let comes_after = |entry: &Entry| {
+    let comes_after = |entry: &EnclosedEigenvalue| {
         let before = chosen[1..].iter().map(|&position| &spectrum.entries[position]);
         before
             .filter(|first| first.index == entry.index)

@@ -61,15 +61,15 @@ pub struct Winding {
 }
 
 /// A curve in the plane in Bernstein form: its coefficients as points.
-pub(super) type Curve<S> = [Vec<S>; 2];
+pub(super) type BoundaryCurve<S> = [Vec<S>; 2];
 
 /// The outer boundary of sector 0 in order: along the sides `u = 1` of the patches at the far end of the own
 /// spoke, then back along the sides `v = 1` of those at the far end of the next. Without rotation symmetry
 /// the boundaries of all sectors.
-pub(super) fn boundary<S: Enclose>(net: &PlaneNet<S>) -> Vec<Curve<S>> {
+pub(super) fn boundary<S: Enclose>(net: &PlaneNet<S>) -> Vec<BoundaryCurve<S>> {
     let conversion = to_bernstein::<S>(net.annulus().degree);
     let last = 2 * net.annulus().inner - 1;
-    let curve = |sector: usize, p: usize, q: usize, side: usize| -> Curve<S> {
+    let curve = |sector: usize, p: usize, q: usize, side: usize| -> BoundaryCurve<S> {
         let width = net.annulus().degree + 1;
         let coordinates = net.coordinates(PatchIndex { sector, p, q }, &conversion);
         coordinates.map(|f| {
@@ -89,13 +89,13 @@ pub(super) fn boundary<S: Enclose>(net: &PlaneNet<S>) -> Vec<Curve<S>> {
     all.map(|(sector, p, q, side)| curve(sector, p, q, side)).collect()
 }
 
-pub(super) fn cut<S: Enclose>([x, y]: &Curve<S>) -> Vec<Curve<S>> {
+pub(super) fn cut<S: Enclose>([x, y]: &BoundaryCurve<S>) -> Vec<BoundaryCurve<S>> {
     let ([x0, x1], [y0, y1]) = (halves(x), halves(y));
     vec![[x0, y0], [x1, y1]]
 }
 
 /// The quarters for which a curve certainly lies in the half-plane around their direction.
-fn half_planes<S: Enclose>([x, y]: &Curve<S>) -> [bool; 4] {
+fn half_planes<S: Enclose>([x, y]: &BoundaryCurve<S>) -> [bool; 4] {
     let all = |values: &[S], positive: bool| {
         values.iter().map(Enclose::enclosure).all(|c| {
             if positive {
@@ -177,7 +177,7 @@ fn last_half_plane<S: Enclose>(net: &PlaneNet<S>) -> Option<i64> {
     let width = net.annulus().degree + 1;
     let steps = || net.annulus().inner..2 * net.annulus().inner;
     let sectors = net.sectors();
-    let spoke = |last: bool| -> Vec<Curve<S>> {
+    let spoke = |last: bool| -> Vec<BoundaryCurve<S>> {
         let patch = |step: usize| match last {
             false => PatchIndex {
                 sector: 0,
@@ -202,18 +202,18 @@ fn last_half_plane<S: Enclose>(net: &PlaneNet<S>) -> Option<i64> {
         steps().map(curve).collect()
     };
     // the coordinate towards a quarter
-    let towards = |curve: &Curve<S>, quarter: usize| -> Vec<Interval> {
+    let towards = |curve: &BoundaryCurve<S>, quarter: usize| -> Vec<Interval> {
         let sign = Interval::integer(if quarter < 2 { 1 } else { -1 });
         curve[quarter % 2].iter().map(|c| sign * c.enclosure()).collect()
     };
-    let lies = |curves: &[Curve<S>], quarter: usize| {
+    let lies = |curves: &[BoundaryCurve<S>], quarter: usize| {
         curves.iter().all(|curve| {
             let values = towards(curve, quarter);
             let inside = values.iter().all(|c| c.certainly_positive());
             inside && values.windows(2).all(|pair| pair[0].certainly_lt(pair[1]))
         })
     };
-    let beyond = |curves: &[Curve<S>], quarter: usize| {
+    let beyond = |curves: &[BoundaryCurve<S>], quarter: usize| {
         let mut values = curves.iter().flat_map(|curve| towards(curve, quarter));
         values.all(|c| c.hi() <= 0.0)
     };

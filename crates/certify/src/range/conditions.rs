@@ -13,7 +13,7 @@
 //! block 2 and z0 in block 0. At N = 3 there are only blocks 0 and 1, with mu in block 1; at N = 4 block 2
 //! has g3 = f3 = mu. Outer rings have the eigenvalues 1/8, 1/16, 1/32, 1/64 in every block, and zero.
 
-use super::point::Point;
+use super::stencil_box::StencilBox;
 use crate::{Centred, Enclose, Interval, Status, Witness};
 use eigenring_spline::Scalar;
 
@@ -31,7 +31,7 @@ fn positive(value: Centred<1>) -> Status {
 
 /// Numbers that are positive exactly if all eigenvalues other than 1, lambda and mu have a modulus below m,
 /// where m is lambda or mu.
-fn gaps(point: &Point, m: Centred<1>) -> Vec<(&'static str, Centred<1>)> {
+fn gaps(point: &StencilBox, m: Centred<1>) -> Vec<(&'static str, Centred<1>)> {
     let (n, plane) = (point.plane.valence, &point.plane);
     let (mu, f3, g3, h) = (plane.mu(), point.f3, point.stencil.g3, point.h);
     let z0 = point.z0();
@@ -61,7 +61,7 @@ fn gaps(point: &Point, m: Centred<1>) -> Vec<(&'static str, Centred<1>)> {
 }
 
 /// `dominant` and `subdominant`.
-pub fn subdominant(point: &Point) -> Vec<Status> {
+pub fn subdominant(point: &StencilBox) -> Vec<Status> {
     let (lambda, mu) = (point.plane.lambda, point.plane.mu());
     let inside = [
         positive(lambda),
@@ -85,7 +85,7 @@ pub fn subdominant(point: &Point) -> Vec<Status> {
 }
 
 /// `bounded_curvature` and `strict`.
-pub fn second_order(point: &Point) -> Vec<Status> {
+pub fn second_order(point: &StencilBox) -> Vec<Status> {
     let (mu, lambda) = (point.plane.mu(), point.plane.lambda);
     let mut gaps = gaps(point, mu);
     gaps.push(("lambda - mu", lambda - mu));
@@ -110,7 +110,7 @@ pub fn second_order(point: &Point) -> Vec<Status> {
 }
 
 /// The numbers at a point, for a witness.
-pub fn describe(point: &Point, witness: Witness) -> Witness {
+pub fn describe(point: &StencilBox, witness: Witness) -> Witness {
     let number = |x: Centred<1>| -> Interval { x.enclosure() };
     witness
         .with("s", number(point.plane.s))
@@ -127,8 +127,8 @@ mod tests {
     use crate::Input;
     use crate::exact::{Field, block_polynomial};
     use crate::find;
-    use crate::range::{Curve, Problem, point};
-    use crate::spectral::{Spectrum, problem_of};
+    use crate::range::{Problem, StencilCurve, stencil_box};
+    use crate::spectral::{EnclosedSpectrum, problem_of};
     use eigenring_scheme::Exact;
     use eigenring_scheme::families::catmull_clark_weights;
     use num_bigint::BigInt;
@@ -159,9 +159,9 @@ mod tests {
     #[test]
     fn closed_forms_agree_with_the_matrix() {
         for valence in [3, 4, 5, 6, 7, 8, 11, 16, 20] {
-            let problem = Problem::new(valence, &Curve::embedded(valence).unwrap(), [0.15, 0.9]).unwrap();
+            let problem = Problem::new(valence, &StencilCurve::embedded(valence).unwrap(), [0.15, 0.9]).unwrap();
             for lambda in [0.2, 0.45, 0.6, 0.85, 0.89] {
-                let points = point::points(&problem, [lambda, lambda]).unwrap();
+                let points = stencil_box::points(&problem, [lambda, lambda]).unwrap();
                 assert_eq!(points.len(), 1);
                 let point = &points[0];
                 let number = |x: Centred<1>| x.enclosure();
@@ -174,7 +174,7 @@ mod tests {
                 };
                 let whole = problem_of(&input, valence).unwrap().unwrap();
                 let evidence = find::evidence(&whole.blocks);
-                let spectrum = Spectrum::new(whole, &evidence);
+                let spectrum = EnclosedSpectrum::new(whole, &evidence);
                 let mu = number(point.plane.mu()).mid();
                 let mut moduli: Vec<f64> = spectrum.entries.iter().map(|e| e.value.modulus().mid()).collect();
                 moduli.sort_by(|a, b| b.total_cmp(a));

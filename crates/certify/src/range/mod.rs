@@ -8,7 +8,7 @@
 //!
 //! * **Knots** of the splines are ends of tiles: on a tile the splines are polynomials.
 //! * **The relaxation** s(lambda) has kinks at irrational places. On a tile that cannot exclude one, every
-//!   branch of the formula that may hold there is checked on the whole tile ([`point::branches`]).
+//!   branch of the formula that may hold there is checked on the whole tile ([`stencil_box::branches`]).
 //! * **A zero is an exact zero**: where all coefficients of f3 on a span are zero, f3 is, and so is what it
 //!   multiplies.
 //!
@@ -19,16 +19,16 @@
 
 mod conditions;
 mod net;
-pub mod point;
+pub mod stencil_box;
 
 use crate::document::{Document, tool};
 use crate::map::{self, JacobianEvidence, WindingEvidence};
 use crate::{Centred, Error, Interval, Requirement, Statement, Status, Witness};
 use eigenring_scheme::lambda::{LambdaKnots, LambdaTable, Relaxation};
 use eigenring_spline::{Knots, Scalar, Spline};
-use point::Point;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use stencil_box::StencilBox;
 
 /// The format that this version reads and writes.
 pub const RANGE_VERSION: u32 = 1;
@@ -36,7 +36,7 @@ pub const RANGE_VERSION: u32 = 1;
 /// f2 and f3 as functions of lambda.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Curve {
+pub enum StencilCurve {
     /// Cubic splines with the given knots; f3 is ignored at valence 4, where it is mu.
     Splines {
         /// The five knots.
@@ -55,14 +55,14 @@ pub enum Curve {
     },
 }
 
-impl Curve {
+impl StencilCurve {
     /// The embedded splines of a valence.
     ///
     /// # Errors
     /// A valence that is not tabulated.
     pub fn embedded(valence: usize) -> Result<Self, Error> {
         let entry = LambdaTable::embedded()?.entry(valence)?;
-        Ok(Curve::Splines {
+        Ok(StencilCurve::Splines {
             knots: entry.knots,
             f2: entry.f2.to_vec(),
             f3: entry.f3.to_vec(),
@@ -120,7 +120,7 @@ pub struct RangeCertificate {
     /// The valence.
     pub valence: usize,
     /// The curve of schemes; s follows the relaxation rule.
-    pub curve: Curve,
+    pub curve: StencilCurve,
     /// The range.
     pub lambda: [f64; 2],
     /// For each group the tiles that cover the range, in order.
@@ -164,22 +164,22 @@ impl Default for Limits {
 pub(crate) struct Problem {
     valence: usize,
     relaxation: Relaxation,
-    curve: Curve,
+    curve: StencilCurve,
     knots: Option<Knots>,
 }
 
 impl Problem {
-    fn new(valence: usize, curve: &Curve, [start, end]: [f64; 2]) -> Result<Self, Error> {
+    fn new(valence: usize, curve: &StencilCurve, [start, end]: [f64; 2]) -> Result<Self, Error> {
         let relaxation = Relaxation::new(valence)?;
         let knots = match curve {
-            Curve::Splines { knots, f2, f3 } => {
+            StencilCurve::Splines { knots, f2, f3 } => {
                 let space = knots.knots()?;
                 // the right number of finite coefficients
                 Spline::new(space.clone(), f2.clone())?;
                 Spline::new(space.clone(), f3.clone())?;
                 Some(space)
             }
-            Curve::Constant { f2, f3 } => {
+            StencilCurve::Constant { f2, f3 } => {
                 for (what, value) in [("f2", *f2), ("f3", *f3)] {
                     if !value.is_finite() {
                         return Err(Error::NotFinite { what, value });
@@ -213,7 +213,7 @@ impl Problem {
     /// f2 and f3 on a tile; `None` if a knot lies inside it. f3 is `None` at valence 4.
     fn weights<S: Scalar + Copy>(&self, [start, end]: [f64; 2], lambda: S) -> Option<(S, Option<S>)> {
         let (f2, f3) = match (&self.curve, &self.knots) {
-            (Curve::Splines { f2, f3, .. }, Some(knots)) => {
+            (StencilCurve::Splines { f2, f3, .. }, Some(knots)) => {
                 let span = knots.span(start)?;
                 if knots.values()[span + 1] < end {
                     return None;
@@ -221,7 +221,7 @@ impl Problem {
                 let basis = knots.basis(span, lambda);
                 (basis.combine(&basis.values, f2), basis.combine(&basis.values, f3))
             }
-            (Curve::Constant { f2, f3 }, _) => (S::exact(*f2), S::exact(*f3)),
+            (StencilCurve::Constant { f2, f3 }, _) => (S::exact(*f2), S::exact(*f3)),
             _ => return None,
         };
         Some((f2, (self.valence != 4).then_some(f3)))
@@ -230,7 +230,7 @@ impl Problem {
     /// The statuses of a group on a tile. With `evidence` for the map, which is not looked at otherwise.
     fn decide(&self, group: Group, lambda: [f64; 2], evidence: &[(JacobianEvidence, WindingEvidence)]) -> Vec<Status> {
         let undecided = vec![Status::Undecided; group.statements().len()];
-        let Some(points) = point::points(self, lambda) else {
+        let Some(points) = stencil_box::points(self, lambda) else {
             return undecided;
         };
         let mut found: Option<Vec<Status>> = None;
@@ -264,7 +264,7 @@ impl Problem {
             depth: 2,
             ..map::find::Limits::default()
         };
-        let points = point::points(self, lambda).unwrap_or_default();
+        let points = stencil_box::points(self, lambda).unwrap_or_default();
         let nets: Option<Vec<_>> = points.iter().map(net::characteristic).collect();
         let found = nets.unwrap_or_default();
         let evidence = found
@@ -292,7 +292,12 @@ fn map_statuses(
 ///
 /// # Errors
 /// Those of the curve; [`Error::Range`].
-pub fn prove_range(valence: usize, curve: Curve, lambda: [f64; 2], limits: Limits) -> Result<RangeCertificate, Error> {
+pub fn prove_range(
+    valence: usize,
+    curve: StencilCurve,
+    lambda: [f64; 2],
+    limits: Limits,
+) -> Result<RangeCertificate, Error> {
     let problem = Problem::new(valence, &curve, lambda)?;
     let tiles = Group::ALL.map(|group| (group, cover(&problem, group, lambda, limits)));
     let certificate = RangeCertificate {
@@ -403,8 +408,10 @@ impl RangeCertificate {
         let problem = Problem::new(self.valence, &self.curve, self.lambda).ok();
         let tiles = self.tiles.get(&Group::Subdominant).map_or(&[][..], Vec::as_slice);
         let pieces = tiles.iter().map(|tile| {
-            let points = problem.as_ref().and_then(|problem| point::points(problem, tile.lambda));
-            let bounded = points.is_some_and(|points| points.iter().all(Point::is_bounded));
+            let points = problem
+                .as_ref()
+                .and_then(|problem| stencil_box::points(problem, tile.lambda));
+            let bounded = points.is_some_and(|points| points.iter().all(StencilBox::is_bounded));
             let status = if bounded { Status::Proven } else { Status::Undecided };
             (tile.lambda, status)
         });
@@ -468,7 +475,7 @@ impl RangeCertificate {
     fn witness(&self, [start, end]: [f64; 2], statements: &[Statement]) -> Option<Witness> {
         let lambda = start + (end - start) / 2.0;
         let problem = Problem::new(self.valence, &self.curve, self.lambda).ok()?;
-        let points = point::points(&problem, [lambda, lambda])?;
+        let points = stencil_box::points(&problem, [lambda, lambda])?;
         let point = points.first()?;
         let refuted = statements.iter().find(|&&statement| {
             Group::ALL.iter().any(|group| {

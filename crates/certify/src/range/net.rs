@@ -1,6 +1,6 @@
 //! The characteristic map on an interval of lambda.
 
-use super::point::Point;
+use super::stencil_box::StencilBox;
 use crate::map::PlaneNet;
 use crate::spectral::net;
 use crate::{Centred, Enclose};
@@ -11,7 +11,7 @@ use eigenring_spectral::{Annulus, Block, Matrix, fourier_block};
 ///
 /// `E = 1` and, from the face rule, `F = 2 f2 cos(pi/N)/(lambda - f3)` in the real unknowns; then ring by
 /// ring `(lambda - S_rr) v_r = sum_q S_rq v_q` over the rings q before r.
-pub fn characteristic(point: &Point) -> Option<PlaneNet<Centred<1>>> {
+pub fn characteristic(point: &StencilBox) -> Option<PlaneNet<Centred<1>>> {
     let plane = &point.plane;
     let scheme: Scheme<Centred<1>> = point.stencil.weights.scheme("", plane.valence).ok()?;
     let annulus = Annulus::new(&scheme).ok()?;

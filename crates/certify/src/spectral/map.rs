@@ -1,7 +1,7 @@
 //! Eigenvectors on all rings, and the nets they are.
 
 use super::block::Divided;
-use super::{Block, Entry, Place, Spectrum};
+use super::{Block, EnclosedEigenvalue, EnclosedSpectrum, Place};
 use crate::Interval;
 use crate::linear::solve;
 use eigenring_scheme::{Complex, Numbering, Scalar, Site};
@@ -18,7 +18,7 @@ pub type Net = Vec<Complex<Interval>>;
 /// On components that do not read the entry's own one the vector is zero; on those that do, in their order,
 /// it is the solution of `(value - S_dd) v_d = sum_e S_de v_e` over the components e before d. `value` may be
 /// a sharper enclosure of the entry's eigenvalue.
-pub fn modulo_constants(block: &Block, entry: &Entry, value: Interval) -> Option<Vec<Interval>> {
+pub fn modulo_constants(block: &Block, entry: &EnclosedEigenvalue, value: Interval) -> Option<Vec<Interval>> {
     if matches!(block.place, Place::Parts | Place::Quotient) {
         return None;
     }
@@ -26,7 +26,12 @@ pub fn modulo_constants(block: &Block, entry: &Entry, value: Interval) -> Option
 }
 
 /// The same on some components, of which the entry's is one and which read no others; zero elsewhere.
-fn within(block: &Block, entry: &Entry, value: Interval, wanted: &dyn Fn(usize) -> bool) -> Option<Vec<Interval>> {
+fn within(
+    block: &Block,
+    entry: &EnclosedEigenvalue,
+    value: Interval,
+    wanted: &dyn Fn(usize) -> bool,
+) -> Option<Vec<Interval>> {
     let reduced = on_kept(block, entry, value, wanted)?;
     let mut vector = vec![Interval::point(0.0); block.size];
     for (&unknown, x) in block.kept.iter().zip(reduced) {
@@ -35,7 +40,12 @@ fn within(block: &Block, entry: &Entry, value: Interval, wanted: &dyn Fn(usize) 
     Some(vector)
 }
 
-fn on_kept(block: &Block, entry: &Entry, value: Interval, wanted: &dyn Fn(usize) -> bool) -> Option<Vec<Interval>> {
+fn on_kept(
+    block: &Block,
+    entry: &EnclosedEigenvalue,
+    value: Interval,
+    wanted: &dyn Fn(usize) -> bool,
+) -> Option<Vec<Interval>> {
     let zero = Interval::point(0.0);
     let mut vector = vec![zero; block.matrix.rows()];
     for (&unknown, &x) in block.components[entry.component].iter().zip(entry.vector.as_ref()?) {
@@ -66,12 +76,12 @@ fn on_kept(block: &Block, entry: &Entry, value: Interval, wanted: &dyn Fn(usize)
 
 /// The eigenvector of a simple real eigenvalue on all unknowns of its block; see `modulo_constants`. `None`
 /// also if the constant vector's eigenvalue 1 was not proven to be another one.
-pub fn eigenvector(block: &Block, entry: &Entry, value: Interval) -> Option<Vec<Interval>> {
+pub fn eigenvector(block: &Block, entry: &EnclosedEigenvalue, value: Interval) -> Option<Vec<Interval>> {
     with_constants(block, modulo_constants(block, entry, value)?, value)
 }
 
 /// The eigenvector on some components alone, which with the centre read no others.
-pub fn eigenvector_within(block: &Block, entry: &Entry, wanted: &[usize]) -> Option<Vec<Interval>> {
+pub fn eigenvector_within(block: &Block, entry: &EnclosedEigenvalue, wanted: &[usize]) -> Option<Vec<Interval>> {
     if block.place != Place::Points {
         return None;
     }
@@ -102,7 +112,7 @@ fn with_constants(block: &Block, mut vector: Vec<Interval>, value: Interval) -> 
 /// Whether the surface sees an eigenvector: whether its control points on the annulus are certainly not all
 /// zero, or not all equal where constants do not count. B-splines are linearly independent, so that its ring
 /// of patches is then not zero.
-pub fn is_visible(block: &Block, entry: &Entry) -> bool {
+pub fn is_visible(block: &Block, entry: &EnclosedEigenvalue) -> bool {
     let Some(vector) = modulo_constants(block, entry, entry.value.re) else {
         return false;
     };
@@ -159,10 +169,10 @@ pub fn net<S: Scalar + Copy>(numbering: Numbering, index: usize, unknowns: &[S],
     numbering.sites().into_iter().map(value).collect()
 }
 
-impl Spectrum {
+impl EnclosedSpectrum {
     /// The net of an entry on the numbering of the annulus, with the given enclosure of its eigenvalue: the
     /// first point of ring 1 is real, and positive where it is not zero.
-    pub fn net(&self, entry: &Entry, value: Interval) -> Option<Net> {
+    pub fn net(&self, entry: &EnclosedEigenvalue, value: Interval) -> Option<Net> {
         let block = self.block(entry.index)?;
         let unknowns = eigenvector(block, entry, value)?;
         let numbering = self.patches.numbering();

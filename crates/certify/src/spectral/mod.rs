@@ -35,7 +35,7 @@ pub type Evidence = Vec<Vec<Peel>>;
 
 /// The enclosed spectrum.
 #[derive(Clone, Debug)]
-pub struct Spectrum {
+pub struct EnclosedSpectrum {
     /// Where the patches are, and their control points.
     pub patches: Patches,
     /// The coordinates of the points, if rules that differ from sector to sector halve them: two eigenvectors
@@ -44,14 +44,14 @@ pub struct Spectrum {
     /// The blocks of index 0 to N/2, or the undivided matrix as the only one.
     pub blocks: Vec<Block>,
     /// The eigenvalues of all blocks.
-    pub entries: Vec<Entry>,
+    pub entries: Vec<EnclosedEigenvalue>,
     /// What is only known in modulus.
     pub bounds: Vec<Bound>,
 }
 
 /// An eigenvalue: one of the block of its index, and one of the conjugate block.
 #[derive(Clone, Debug)]
-pub struct Entry {
+pub struct EnclosedEigenvalue {
     /// The Fourier index, at most N/2.
     pub index: usize,
     /// The component of the block.
@@ -75,7 +75,7 @@ pub struct Bound {
     pub radius: f64,
 }
 
-impl Spectrum {
+impl EnclosedSpectrum {
     /// The spectrum of a subject's blocks, with the help of evidence. Evidence that is missing or wrong
     /// leaves wide bounds.
     pub fn new(problem: Problem, evidence: &Evidence) -> Self {
@@ -93,7 +93,7 @@ impl Spectrum {
                     .and_then(|peels| peels.get(component))
                     .unwrap_or(&none);
                 let (located, rest) = enclose(&block.part(component), peel);
-                entries.extend(located.into_iter().map(|Located { value, vector }| Entry {
+                entries.extend(located.into_iter().map(|Located { value, vector }| EnclosedEigenvalue {
                     index: block.index,
                     component,
                     value,
@@ -107,7 +107,7 @@ impl Spectrum {
                 }));
             }
         }
-        Spectrum {
+        EnclosedSpectrum {
             patches,
             coordinates,
             blocks,
@@ -132,20 +132,20 @@ impl Spectrum {
     }
 
     /// The eigenvector of an entry of the undivided matrix: a value for each point of the numbering.
-    pub fn points(&self, entry: &Entry) -> Option<Vec<Interval>> {
+    pub fn points(&self, entry: &EnclosedEigenvalue) -> Option<Vec<Interval>> {
         let block = self.block(entry.index).filter(|block| block.place == Place::Points)?;
         eigenvector(block, entry, entry.value.re)
     }
 
     /// Whether an entry is certainly larger in modulus than everything else.
-    pub fn leads(&self, entry: &Entry) -> bool {
+    pub fn leads(&self, entry: &EnclosedEigenvalue) -> bool {
         let position = self.entries.iter().position(|other| std::ptr::eq(other, entry));
         let other = position.and_then(|position| self.largest_other(&[position]));
         position.is_some() && other.is_none_or(|(other, _)| other.certainly_lt(entry.value.modulus()))
     }
 
     /// Whether the surface is proven to see the eigenvector of an entry.
-    pub fn sees(&self, entry: &Entry) -> bool {
+    pub fn sees(&self, entry: &EnclosedEigenvalue) -> bool {
         self.block(entry.index).is_some_and(|block| is_visible(block, entry))
     }
 
@@ -162,7 +162,7 @@ pub struct Problem {
     pub patches: Patches,
     /// The blocks of the matrix that determines them.
     pub blocks: Vec<Block>,
-    /// See [`Spectrum::coordinates`].
+    /// See [`EnclosedSpectrum::coordinates`].
     pub coordinates: Option<[Vec<Interval>; 2]>,
 }
 

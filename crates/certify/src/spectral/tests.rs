@@ -3,12 +3,12 @@ use crate::find;
 use eigenring_scheme::{FourierNet, Spec};
 use eigenring_spectral::LocalSystem;
 
-fn spectrum(spec: &str, valence: usize) -> Spectrum {
+fn spectrum(spec: &str, valence: usize) -> EnclosedSpectrum {
     let spec: Spec = spec.parse().unwrap();
     let input = Input::from_spec(&spec, valence).unwrap();
     let problem = problem_of(&input, valence).unwrap().unwrap();
     let evidence = find::evidence(&problem.blocks);
-    Spectrum::new(problem, &evidence)
+    EnclosedSpectrum::new(problem, &evidence)
 }
 
 /// Every eigenvalue found by QR iterations is accounted for, with its multiplicity.
@@ -36,7 +36,7 @@ fn spectra_agree_with_those_in_doubles() {
                     "{spec} {valence} {index}"
                 );
                 for value in block.eigenvalues().unwrap() {
-                    let near = |entry: &Entry| {
+                    let near = |entry: &EnclosedEigenvalue| {
                         let inflated = |x: Interval| x + Interval::around(0.0, 1e-12);
                         inflated(entry.value.re).contains(value.value.0)
                             && inflated(entry.value.im).contains(value.value.1)
@@ -129,7 +129,7 @@ fn false_evidence_costs_sharpness_and_nothing_else() {
     let input = Input::from_spec(&"tension:order=6".parse().unwrap(), 5).unwrap();
     let problem = problem_of(&input, 5).unwrap().unwrap();
     let mut evidence = find::evidence(&problem.blocks);
-    let honest = Spectrum::new(problem.clone(), &evidence);
+    let honest = EnclosedSpectrum::new(problem.clone(), &evidence);
     for peel in evidence.iter_mut().flatten() {
         for (value, vector) in &mut peel.pairs {
             *value += 0.3;
@@ -139,10 +139,10 @@ fn false_evidence_costs_sharpness_and_nothing_else() {
             rest.radius *= 0.5;
         }
     }
-    let misled = Spectrum::new(problem.clone(), &evidence);
+    let misled = EnclosedSpectrum::new(problem.clone(), &evidence);
     // what is still claimed is compatible with the truth
-    let largest = |spectrum: &Spectrum| spectrum.largest_other(&[]).unwrap().0.hi();
+    let largest = |spectrum: &EnclosedSpectrum| spectrum.largest_other(&[]).unwrap().0.hi();
     assert!(largest(&misled) >= largest(&honest) * (1.0 - 1e-9));
-    let none = Spectrum::new(problem, &Vec::new());
+    let none = EnclosedSpectrum::new(problem, &Vec::new());
     assert!(largest(&none) >= largest(&honest) * (1.0 - 1e-9));
 }

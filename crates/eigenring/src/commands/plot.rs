@@ -8,7 +8,7 @@ use crate::progress::{Terminal, note};
 use crate::threads::Threads;
 use crate::valences::OptionalValences;
 use clap::{Args, ValueEnum};
-use eigenring_atlas::figures::{self, Drawing, Entry, FIGURES, Inputs, Studies};
+use eigenring_atlas::figures::{self, Drawing, FIGURES, FigureEntry, Inputs, Studies};
 use eigenring_atlas::progress::{Silent, each};
 use eigenring_atlas::results::{EVERYTHING, FOLDER};
 use eigenring_atlas::schemes::{SchemeName, Tuner};
@@ -173,7 +173,7 @@ impl Arguments {
     }
 
     /// The figures asked for, each once.
-    fn entries(&self) -> Result<Vec<&'static Entry>, Error> {
+    fn entries(&self) -> Result<Vec<&'static FigureEntry>, Error> {
         if self.all {
             return Ok(FIGURES.iter().collect());
         }
@@ -182,7 +182,7 @@ impl Arguments {
             let accepted = format!("--all, --list, or {}", names.join(", "));
             return Err(Error::usage("no figure is named", accepted));
         }
-        let mut entries: Vec<&'static Entry> = Vec::new();
+        let mut entries: Vec<&'static FigureEntry> = Vec::new();
         for name in &self.figures {
             let entry = figures::find(name)?;
             if !entries.iter().any(|known| known.name == entry.name) {
@@ -193,7 +193,7 @@ impl Arguments {
     }
 
     /// Refuses what the figures do not take; with --all, options go to those that take them.
-    fn check(&self, entries: &[&Entry]) -> Result<(), Error> {
+    fn check(&self, entries: &[&FigureEntry]) -> Result<(), Error> {
         if let Some(valences) = &self.valences.valences {
             valences.closed()?;
         }
@@ -220,7 +220,7 @@ impl Arguments {
             return Ok(());
         }
         for entry in entries {
-            let refuse = |option: &str, takes: fn(&Entry) -> bool| {
+            let refuse = |option: &str, takes: fn(&FigureEntry) -> bool| {
                 let names: Vec<&str> = FIGURES.iter().filter(|e| takes(e)).map(|e| e.name).collect();
                 Err(Error::usage(
                     format!("figure {} does not take {option}", entry.name),
@@ -246,7 +246,7 @@ impl Arguments {
         Ok(())
     }
 
-    fn valences<'a>(&'a self, entry: &'a Entry) -> Result<&'a [usize], Error> {
+    fn valences<'a>(&'a self, entry: &'a FigureEntry) -> Result<&'a [usize], Error> {
         match &self.valences.valences {
             Some(valences) if !entry.valences.is_empty() => valences.closed(),
             _ => Ok(entry.valences),
@@ -254,7 +254,7 @@ impl Arguments {
     }
 
     /// The schemes of a figure that takes them: given by name, as members of the lambda-scheme, or its own.
-    fn schemes(&self, entry: &Entry) -> Result<Vec<SchemeName>, Error> {
+    fn schemes(&self, entry: &FigureEntry) -> Result<Vec<SchemeName>, Error> {
         if entry.schemes.is_none() {
             return Ok(Vec::new());
         }
@@ -274,7 +274,7 @@ impl Arguments {
         }
     }
 
-    fn studies(&self, entries: &[&Entry]) -> Result<Studies, Error> {
+    fn studies(&self, entries: &[&FigureEntry]) -> Result<Studies, Error> {
         let mut needed: Vec<usize> = Vec::new();
         for entry in entries.iter().filter(|entry| entry.studies) {
             needed.extend(self.valences(entry)?);
@@ -288,7 +288,7 @@ impl Arguments {
     }
 
     /// The files of a figure.
-    fn draw(&self, entry: &Entry, studies: &Studies, tuner: &Tuner<'_>) -> Result<Vec<(String, Vec<u8>)>, Error> {
+    fn draw(&self, entry: &FigureEntry, studies: &Studies, tuner: &Tuner<'_>) -> Result<Vec<(String, Vec<u8>)>, Error> {
         let schemes = self.schemes(entry)?;
         let inputs = Inputs {
             schemes: &schemes,
@@ -333,6 +333,6 @@ impl Arguments {
     }
 }
 
-fn takes_lambda(entry: &Entry) -> bool {
+fn takes_lambda(entry: &FigureEntry) -> bool {
     !entry.lambdas.is_empty() || entry.schemes.is_some()
 }

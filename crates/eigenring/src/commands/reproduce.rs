@@ -9,7 +9,7 @@ use crate::progress::bar;
 use crate::threads::Threads;
 use clap::{Args, Parser};
 use eigenring_atlas::difference::{Report, compare_files};
-use eigenring_atlas::index::{Entry, Index};
+use eigenring_atlas::index::{Index, IndexEntry};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Output, Stdio};
 
@@ -76,7 +76,7 @@ impl Arguments {
     }
 
     /// Compares an entry with what is made anew, or runs its own check unless it was asked for by name.
-    fn check(&self, entry: &Entry, named: bool) -> Result<Report, Error> {
+    fn check(&self, entry: &IndexEntry, named: bool) -> Result<Report, Error> {
         let present = |path: &PathBuf| files::size(&self.out.join(path));
         for path in &entry.files {
             present(path)?;
@@ -125,7 +125,7 @@ fn accept(words: &[String]) -> Result<(), String> {
 }
 
 /// Makes the files of an entry below a folder.
-fn make(entry: &Entry, out: &Path, threads: Threads) -> Result<(), Error> {
+fn make(entry: &IndexEntry, out: &Path, threads: Threads) -> Result<(), Error> {
     let words = entry.making(out);
     let output = run(&words, threads)?;
     if output.status.success() {
@@ -140,7 +140,7 @@ fn make(entry: &Entry, out: &Path, threads: Threads) -> Result<(), Error> {
 
 /// Runs the command that re-checks the files of an entry, if there is one: whether it succeeds, and what it
 /// prints.
-fn recheck(entry: &Entry, out: &Path, threads: Threads) -> Result<Option<(bool, String)>, Error> {
+fn recheck(entry: &IndexEntry, out: &Path, threads: Threads) -> Result<Option<(bool, String)>, Error> {
     let Some(words) = entry.checking(out) else {
         return Ok(None);
     };

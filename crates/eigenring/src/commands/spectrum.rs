@@ -22,8 +22,8 @@ use std::process::ExitCode;
 /// List the eigenvalues of a local subdivision matrix with their Fourier indices and multiplicities.
 ///
 /// Multiplicities are those in the whole matrix: an eigenvalue that blocks k and N-k share is listed once,
-/// with fourier = k <= N/2. Without --rings the smallest closed set of rings is taken, and one ring more where
-/// the eigenvalues outside of it are not strictly below the subsubdominant one: a note says so, and
+/// with fourier = k <= N/2. Without --rings the smallest closed set of rings is taken, and one ring more
+/// where the eigenvalues outside of it are not strictly below the subsubdominant one: a note says so, and
 /// closed_rings and outer (their largest modulus) are listed.
 #[derive(Args, Debug)]
 #[command(group = ArgGroup::new("source").required(true))]

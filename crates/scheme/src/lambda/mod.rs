@@ -16,10 +16,10 @@ mod plane;
 mod relaxation;
 mod table;
 
-pub use domain::{Bounds, Constraint, Curve, Domain, F2End, F2Interval, F3End, InfeasiblePoint, Root, Strip};
+pub use domain::{Bounds, Constraint, ConstraintCurve, Domain, F2End, F2Interval, F3End, InfeasiblePoint, Root, Strip};
 pub use knots::LambdaKnots;
 pub use member::{Member, Source, Untabulated};
 pub use paper::{LAMBDA_A, LAMBDA_M, LAMBDA_R1, PAPER_TABLE_1, PaperRow};
 pub use plane::{LambdaStencil, Plane};
 pub use relaxation::{Addition, Branch, Relaxation, Term};
-pub use table::{Entry, LambdaTable, Provenance, TABLE_VERSION, TableError};
+pub use table::{LambdaEntry, LambdaTable, Provenance, TABLE_VERSION, TableError};

@@ -24,7 +24,7 @@ pub struct LambdaTable {
     /// Where the numbers come from.
     pub provenance: Provenance,
     /// One entry for each valence.
-    pub valences: Vec<Entry>,
+    pub valences: Vec<LambdaEntry>,
 }
 
 /// What wrote a table, and a digest of what was written.
@@ -42,7 +42,7 @@ pub struct Provenance {
 /// The spline stencils and featured lambda values of one valence.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Entry {
+pub struct LambdaEntry {
     /// The valence N.
     pub valence: usize,
     /// The knots.
@@ -130,7 +130,7 @@ impl LambdaTable {
     ///
     /// # Errors
     /// As for [`LambdaTable::from_json`].
-    pub fn new(tool: String, command: String, valences: Vec<Entry>) -> Result<Self, Error> {
+    pub fn new(tool: String, command: String, valences: Vec<LambdaEntry>) -> Result<Self, Error> {
         let mut table = LambdaTable {
             version: TABLE_VERSION,
             provenance: Provenance {
@@ -186,7 +186,7 @@ impl LambdaTable {
     ///
     /// # Errors
     /// [`Error::NotTabulated`] if there is none.
-    pub fn entry(&self, valence: usize) -> Result<&Entry, Error> {
+    pub fn entry(&self, valence: usize) -> Result<&LambdaEntry, Error> {
         match self.valences.binary_search_by_key(&valence, |entry| entry.valence) {
             Ok(index) => Ok(&self.valences[index]),
             Err(_) => Err(Error::NotTabulated {
@@ -231,7 +231,7 @@ impl LambdaTable {
             let valence = pair[1].valence;
             return Err(TableError::Order { valence }.into());
         }
-        self.valences.iter().try_for_each(Entry::validate)?;
+        self.valences.iter().try_for_each(LambdaEntry::validate)?;
         let actual = self.digest();
         if actual != self.provenance.digest {
             let stated = self.provenance.digest.clone();
@@ -245,7 +245,7 @@ impl LambdaTable {
 /// zero.
 const ROUNDING: f64 = 1e-15;
 
-impl Entry {
+impl LambdaEntry {
     /// f2 and f3 at `lambda` (Eq. 22; f3 at valence 4 is mu).
     ///
     /// # Errors
@@ -276,7 +276,7 @@ impl Entry {
     /// f2 and f3 at the globally optimal lambda.
     ///
     /// # Errors
-    /// Those of [`Entry::weights`].
+    /// Those of [`LambdaEntry::weights`].
     pub fn optimal(&self) -> Result<(f64, f64), Error> {
         self.weights(self.lambda_optimal)
     }
@@ -348,7 +348,7 @@ mod tests {
 
     /// Knots of the paper, and coefficients that reproduce f2 = lambda/2, f3 = lambda/3 (the knot averages
     /// are their Greville abscissae).
-    fn entry(valence: usize) -> Entry {
+    fn entry(valence: usize) -> LambdaEntry {
         let knots = LambdaKnots {
             a: 0.15,
             b: 0.25,
@@ -358,7 +358,7 @@ mod tests {
         };
         let values = knots.knots().unwrap().values().to_vec();
         let greville = |i: usize| (values[i + 1] + values[i + 2] + values[i + 3]) / 3.0;
-        Entry {
+        LambdaEntry {
             valence,
             knots,
             f2: std::array::from_fn(|i| greville(i) / 2.0),
@@ -371,7 +371,7 @@ mod tests {
         }
     }
 
-    fn table(valences: Vec<Entry>) -> Result<LambdaTable, Error> {
+    fn table(valences: Vec<LambdaEntry>) -> Result<LambdaTable, Error> {
         LambdaTable::new("0.1.0".into(), "eigenring tables".into(), valences)
     }
 
@@ -452,7 +452,7 @@ mod tests {
         let renamed = json.replacen("\"phi\"", "\"psi\"", 1);
         assert!(matches!(read(&renamed), Error::Table(TableError::Syntax { .. })));
 
-        let with = |change: fn(&mut Entry)| {
+        let with = |change: fn(&mut LambdaEntry)| {
             let mut changed = entry(5);
             change(&mut changed);
             table(vec![entry(3), changed]).unwrap_err()
@@ -470,7 +470,7 @@ mod tests {
             Error::Spline(Refused::Knots { .. })
         ));
         for change in [
-            (|entry| entry.lambda_optimal = 0.95) as fn(&mut Entry),
+            (|entry| entry.lambda_optimal = 0.95) as fn(&mut LambdaEntry),
             |entry| entry.lambda_l = f64::NAN,
             |entry| entry.lambda_r1 = 0.8,
             |entry| entry.phi = 0.0,
@@ -481,7 +481,7 @@ mod tests {
             ));
         }
         assert!(matches!(
-            table(vec![Entry { valence: 2, ..entry(3) }]),
+            table(vec![LambdaEntry { valence: 2, ..entry(3) }]),
             Err(Error::Valence { valence: 2 })
         ));
     }

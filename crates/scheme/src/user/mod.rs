@@ -89,23 +89,23 @@
 //! a program has rounded are read is said in [`Reading`].
 
 mod balance;
-mod entry;
 mod file;
 mod formula;
 mod parameters;
 mod rules;
 mod starters;
+mod valence_rules;
 
 pub use balance::Balance;
 pub use parameters::Parameter;
 pub use starters::{Starter, starters};
 
 use crate::{Error, Exact, Lattice, Number, Scalar, Scheme, Site};
-use entry::Entry;
 use file::{Contents, MAX_VALENCE, SchemeText, file_error};
 use formula::Formula;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
+use valence_rules::ValenceRules;
 
 /// How the weights of a file are read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -130,7 +130,7 @@ pub struct UserScheme {
     /// The parameters that stay open, by their place.
     free: Vec<usize>,
     /// The scheme at the valences that are listed.
-    entries: Vec<(usize, Entry)>,
+    entries: Vec<(usize, ValenceRules)>,
 }
 
 #[derive(Clone, Debug)]
@@ -357,7 +357,7 @@ impl UserScheme {
         Ok(self.entry(valence)?.balance)
     }
 
-    fn entry(&self, valence: usize) -> Result<Cow<'_, Entry>, Error> {
+    fn entry(&self, valence: usize) -> Result<Cow<'_, ValenceRules>, Error> {
         if let Some((_, entry)) = self.entries.iter().find(|(n, _)| *n == valence) {
             return Ok(Cow::Borrowed(entry));
         }
@@ -383,8 +383,8 @@ impl UserScheme {
         })
     }
 
-    fn entry_of(&self, form: &rules::Form, n: usize, terms: &mut usize) -> Result<Entry, Error> {
-        let entry = Entry::new(&self.contents, form, n, self.reading, &self.free, terms)?;
+    fn entry_of(&self, form: &rules::Form, n: usize, terms: &mut usize) -> Result<ValenceRules, Error> {
+        let entry = ValenceRules::new(&self.contents, form, n, self.reading, &self.free, terms)?;
         if let (Some(stated), Some(degree)) = (self.contents.degree, entry.degree)
             && stated != degree
         {

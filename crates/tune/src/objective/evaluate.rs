@@ -55,7 +55,7 @@ pub(super) struct Outcome {
 
 /// The maps at a block of points.
 #[derive(Clone, Copy)]
-pub(super) struct Sample {
+pub(super) struct MapBlock {
     /// Quadrature weight times Jacobian.
     area: Lanes,
     pub saddle: Saddle,
@@ -122,8 +122,8 @@ impl Jets {
     }
 
     #[inline(always)]
-    fn sample(&self, weight: Lanes) -> Sample {
-        Sample {
+    fn sample(&self, weight: Lanes) -> MapBlock {
+        MapBlock {
             area: weight * self.frame.jacobian,
             saddle: Saddle::new(self.saddle[0].hessian, self.saddle[1].hessian),
             cup: self.cup.hessian,

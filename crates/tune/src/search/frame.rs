@@ -1,6 +1,6 @@
 //! Coordinates in units of the domain, and the way back into it.
 
-use eigenring_scheme::lambda::{Curve, Domain, F2Interval};
+use eigenring_scheme::lambda::{ConstraintCurve, Domain, F2Interval};
 use eigenring_spline::Dual;
 
 /// A domain with its two units of length.
@@ -26,7 +26,7 @@ pub(super) enum Side {
 /// relative to p.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Arc {
-    pub curve: Curve,
+    pub curve: ConstraintCurve,
     pub side: Side,
     pub offset: f64,
     pub slope: f64,
@@ -112,7 +112,7 @@ impl<'a> Frame<'a> {
     }
 
     /// A curve near a point; `None` if it does not exist at the point's f3.
-    fn arc(&self, curve: Curve, side: Side, [f2, f3]: [f64; 2]) -> Option<Arc> {
+    fn arc(&self, curve: ConstraintCurve, side: Side, [f2, f3]: [f64; 2]) -> Option<Arc> {
         let y = Dual::<Dual<f64>>::variable(Dual::variable(f3, 0), 0);
         let along = self.domain.curve_over(curve, y);
         let [unit2, unit3] = self.unit;

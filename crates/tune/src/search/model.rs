@@ -9,7 +9,7 @@
 //! curvature along it: the Hessian of the Lagrangian, here without a Lagrangian.)
 
 use super::frame::{Arc, Frame};
-use eigenring_scheme::lambda::Curve;
+use eigenring_scheme::lambda::ConstraintCurve;
 
 /// Symmetric second derivatives `[xx, xy, yy]`.
 pub(super) type Hessian = [f64; 3];
@@ -56,7 +56,7 @@ impl Model {
             offer(frame.moved(point, step));
         }
         let arcs = frame.arcs(point, radius);
-        let on_curve = |curve: Curve, y: f64| {
+        let on_curve = |curve: ConstraintCurve, y: f64| {
             let f3 = (point[1] + y * frame.unit[1]).clamp(frame.f3[0], frame.f3[1]);
             frame.domain.curve(curve, f3).map(|(f2, _)| [f2, f3])
         };

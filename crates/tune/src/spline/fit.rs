@@ -24,7 +24,7 @@ use eigenring_spline::{Knots, Spline};
 
 /// A value to be approximated.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
+pub struct Datum {
     /// The subdominant eigenvalue at which it is so.
     pub lambda: f64,
     /// The value that the spline should take there.
@@ -50,7 +50,7 @@ pub struct FitProblem<'a> {
     /// The spline space, of degree 2 or 3.
     pub knots: &'a Knots,
     /// What to approximate.
-    pub samples: &'a [Sample],
+    pub samples: &'a [Datum],
     /// Pairs (lambda, value) to interpolate.
     pub interpolate: &'a [(f64, f64)],
     /// Bounds; equal lower and upper bounds are an interpolation.

@@ -16,7 +16,7 @@ mod reduce;
 mod stencils;
 
 pub use error::{FitError, Side};
-pub use fit::{ActiveBound, Bound, Fit, FitProblem, Sample};
+pub use fit::{ActiveBound, Bound, Datum, Fit, FitProblem};
 pub use kinks::{Candidate, KnotChoice, Slot, Source, choose_knots};
 pub use kkt::Kkt;
 pub use stencils::{Band, StencilBounds, StencilFit, StencilSample, fit_stencils};

@@ -1,7 +1,7 @@
 //! Both functions of a valence: f3 first, then f2 within the bounds that the fitted f3 leaves.
 
 use super::error::FitError;
-use super::fit::{Bound, Fit, FitProblem, Sample};
+use super::fit::{Bound, Datum, Fit, FitProblem};
 use super::kinks::smooth;
 use eigenring_scheme::lambda::LambdaKnots;
 
@@ -89,12 +89,12 @@ pub fn fit_stencils<B: StencilBounds>(
     let f3_bands: Vec<Band> = domains.iter().map(|domain| bounds.f3(domain)).collect();
 
     let fit = |value: fn(&StencilSample) -> f64, fixed: &[(f64, f64)], bands: &[Band]| {
-        let sample = |s: &StencilSample| Sample {
+        let sample = |s: &StencilSample| Datum {
             lambda: s.lambda,
             value: value(s),
             weight: 1.0,
         };
-        let samples: Vec<Sample> = samples.iter().map(sample).collect();
+        let samples: Vec<Datum> = samples.iter().map(sample).collect();
         let bound = |(&lambda, &Band { lower, upper })| Bound { lambda, lower, upper };
         let bounds: Vec<Bound> = lambdas.iter().zip(bands).map(bound).collect();
         FitProblem {

@@ -36,10 +36,10 @@ fn noise(seed: u64) -> impl FnMut() -> f64 {
     }
 }
 
-fn samples(values: impl Fn(f64) -> f64) -> Vec<Sample> {
+fn samples(values: impl Fn(f64) -> f64) -> Vec<Datum> {
     lambdas(&KNOTS)
         .into_iter()
-        .map(|lambda| Sample {
+        .map(|lambda| Datum {
             lambda,
             value: values(lambda),
             weight: 1.0,
@@ -49,7 +49,7 @@ fn samples(values: impl Fn(f64) -> f64) -> Vec<Sample> {
 
 fn solve<'a>(
     knots: &'a Knots,
-    samples: &'a [Sample],
+    samples: &'a [Datum],
     interpolate: &'a [(f64, f64)],
     bounds: &'a [Bound],
     smooth: &'a [f64],
@@ -99,7 +99,7 @@ fn dense_basis(knots: &Knots, lambda: f64) -> Vec<f64> {
     row
 }
 
-fn objective(knots: &Knots, samples: &[Sample], coefficients: &[f64]) -> f64 {
+fn objective(knots: &Knots, samples: &[Datum], coefficients: &[f64]) -> f64 {
     let spline = Spline::new(knots.clone(), coefficients.to_vec()).unwrap();
     samples
         .iter()
@@ -114,9 +114,9 @@ fn a_planted_spline_is_recovered() {
         let space = knots.knots().unwrap();
         let mut random = noise(row.valence as u64);
         let truth = Spline::new(space.clone(), (0..17).map(|_| random()).collect()).unwrap();
-        let samples: Vec<Sample> = lambdas(&knots)
+        let samples: Vec<Datum> = lambdas(&knots)
             .into_iter()
-            .map(|lambda| Sample {
+            .map(|lambda| Datum {
                 lambda,
                 value: truth.value(lambda).unwrap(),
                 weight: 0.5 + random(),
@@ -181,7 +181,7 @@ fn without_active_bounds_it_is_the_normal_equations() {
 }
 
 /// A curve that must be bent: bounds cut its crests and a stretch of it.
-fn bent() -> (Knots, Vec<Sample>, Vec<Bound>) {
+fn bent() -> (Knots, Vec<Datum>, Vec<Bound>) {
     let bounds = grid(2000)
         .into_iter()
         .map(|lambda| Bound {
@@ -344,11 +344,11 @@ fn undetermined_directions_take_the_least_curvature() {
     let knots = LambdaKnots { b: 0.16, ..KNOTS };
     let space = knots.knots().unwrap();
     // 0.15 and 0.1624 enclose the first two knot intervals: nothing inside them
-    let samples: Vec<Sample> = samples(|lambda| 1.0 - lambda)
+    let samples: Vec<Datum> = samples(|lambda| 1.0 - lambda)
         .into_iter()
         .filter(|s| s.lambda != 0.15416)
         .collect();
-    let samples: Vec<Sample> = samples
+    let samples: Vec<Datum> = samples
         .into_iter()
         .enumerate()
         .filter(|&(i, _)| !(1..3).contains(&i))
@@ -419,7 +419,7 @@ fn contradictions_are_errors() {
     }
     for (value, weight) in [(f64::NAN, 1.0), (0.1, 0.0), (0.1, -1.0), (0.1, f64::NAN)] {
         let mut bad = samples.clone();
-        bad[3] = Sample {
+        bad[3] = Datum {
             value,
             weight,
             ..bad[3]

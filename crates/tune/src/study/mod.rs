@@ -14,9 +14,9 @@ pub use recommended::second_ring_convexity;
 use crate::global::{Global, global};
 use crate::objective::Objective;
 use crate::spline::{self, FitError, Slot, Source, StencilFit, StencilSample, fit_stencils};
-use crate::sweep::{self, BranchSample, Options, Range, Sample, branch};
+use crate::sweep::{self, BranchSample, LambdaSample, Options, Range, branch};
 use admissible::Admissible;
-use eigenring_scheme::lambda::{Entry, LambdaKnots, PAPER_TABLE_1, PaperRow, Relaxation};
+use eigenring_scheme::lambda::{LambdaEntry, LambdaKnots, PAPER_TABLE_1, PaperRow, Relaxation};
 use serde::{Deserialize, Serialize};
 
 /// The relative margin with which the splines keep within the eigenvalue bounds: half of that of the samples,
@@ -205,7 +205,7 @@ impl Study {
     /// # Errors
     /// Those of the steps; [`Error::Fit`] if lambda_l is not inside the range (N > 23 with the paper's
     /// range): the structure of Eq. 21 has a triple knot there.
-    pub fn new(samples: &[Sample], range: &Range, options: &Options, knots: Knots) -> Result<Self, Error> {
+    pub fn new(samples: &[LambdaSample], range: &Range, options: &Options, knots: Knots) -> Result<Self, Error> {
         let global = global(samples, options)?;
         let optimum = global.optimum();
         let (valence, best) = (global.valence, &optimum.minimum);
@@ -271,8 +271,8 @@ impl Study {
     }
 
     /// The entry of the embedded table.
-    pub fn entry(&self, phi: f64, lambda_r2: f64) -> Entry {
-        Entry {
+    pub fn entry(&self, phi: f64, lambda_r2: f64) -> LambdaEntry {
+        LambdaEntry {
             valence: self.valence,
             knots: self.knots.values,
             f2: self.f2.coefficients,
@@ -290,7 +290,7 @@ impl Study {
         self.featured.iter().find(|featured| featured.name == name)
     }
 
-    fn feature(&self, entry: &Entry, options: &Options) -> Result<Vec<Featured>, Error> {
+    fn feature(&self, entry: &LambdaEntry, options: &Options) -> Result<Vec<Featured>, Error> {
         let paper = paper_row(self.valence);
         let column = |get: fn(&PaperRow) -> f64| paper.map(get);
         let knots = &self.knots.values;
@@ -325,7 +325,7 @@ impl Study {
         .collect()
     }
 
-    fn measure(&self, entry: &Entry, range: &Range, options: &Options) -> Result<Accuracy, Error> {
+    fn measure(&self, entry: &LambdaEntry, range: &Range, options: &Options) -> Result<Accuracy, Error> {
         let relaxation = Relaxation::new(self.valence)?;
         let mut accuracy = Accuracy {
             f2: 0.0,

@@ -7,7 +7,7 @@
 //! corners is convex, and convex quadrilaterals around the centre, each turning the same way, do not overlap.
 
 use super::Error;
-use eigenring_scheme::lambda::{Entry, Relaxation};
+use eigenring_scheme::lambda::{LambdaEntry, Relaxation};
 use eigenring_scheme::{Lattice, Scheme, Site};
 use eigenring_spectral::NaturalMode;
 
@@ -15,7 +15,7 @@ use eigenring_spectral::NaturalMode;
 const STEPS: usize = 400;
 
 /// `lambda_r2` of the spline stencils, at most `end`.
-pub(super) fn end(entry: &Entry, end: f64) -> Result<f64, Error> {
+pub(super) fn end(entry: &LambdaEntry, end: f64) -> Result<f64, Error> {
     let relaxation = Relaxation::new(entry.valence)?;
     let convexity = |lambda: f64| -> Result<f64, Error> {
         let (f2, f3) = entry.weights(lambda)?;

@@ -6,7 +6,7 @@
 //! and the step is halved until corrections are short. Where a basin ends (it merges with a saddle point) no
 //! step is small enough: the sample is marked, and the branch goes on from where the descent led.
 
-use super::{Error, Minimum, Options, Problem, Sample};
+use super::{Error, LambdaSample, Minimum, Options, Problem};
 use crate::search;
 use serde::{Deserialize, Serialize};
 
@@ -46,14 +46,14 @@ pub struct Lowest {
 
 /// A point of the branch.
 #[derive(Clone, Copy)]
-struct Point {
+struct BranchPoint {
     lambda: f64,
     at: [f64; 2],
     /// The derivative of `at` by lambda, as far as known.
     velocity: [f64; 2],
 }
 
-impl Point {
+impl BranchPoint {
     /// The extrapolation to another lambda.
     fn predict(&self, lambda: f64) -> [f64; 2] {
         let step = lambda - self.lambda;
@@ -61,10 +61,10 @@ impl Point {
     }
 
     /// The next point, with the velocity that led to it.
-    fn next(&self, lambda: f64, at: [f64; 2]) -> Point {
+    fn next(&self, lambda: f64, at: [f64; 2]) -> BranchPoint {
         let velocity = [0, 1].map(|i| (at[i] - self.at[i]) / (lambda - self.lambda));
         let plausible = velocity.iter().all(|v| v.abs() <= VELOCITY);
-        Point {
+        BranchPoint {
             lambda,
             at,
             velocity: if plausible { velocity } else { [0.0; 2] },
@@ -101,14 +101,14 @@ const SHORT: f64 = 1e-5;
 /// # Errors
 /// [`Error::Samples`] for samples that do not belong together, and any [`Error`] about a single lambda.
 pub fn branch(
-    samples: &[Sample],
+    samples: &[LambdaSample],
     lambda: f64,
     f2: f64,
     f3: f64,
     options: &Options,
 ) -> Result<Vec<BranchSample>, Error> {
     check(samples)?;
-    let origin = Point {
+    let origin = BranchPoint {
         lambda,
         at: [f2, f3],
         velocity: [0.0; 2],
@@ -122,7 +122,7 @@ pub fn branch(
 }
 
 /// One valence, ascending lambda, no sample without minima.
-pub(crate) fn check(samples: &[Sample]) -> Result<(), Error> {
+pub(crate) fn check(samples: &[LambdaSample]) -> Result<(), Error> {
     for (index, sample) in samples.iter().enumerate() {
         let ordered = index == 0 || {
             let before = &samples[index - 1];
@@ -140,8 +140,8 @@ pub(crate) fn check(samples: &[Sample]) -> Result<(), Error> {
 }
 
 fn follow<'a>(
-    samples: impl Iterator<Item = &'a Sample>,
-    origin: Point,
+    samples: impl Iterator<Item = &'a LambdaSample>,
+    origin: BranchPoint,
     options: &Options,
 ) -> Result<Vec<BranchSample>, Error> {
     let mut point = origin;
@@ -155,7 +155,7 @@ fn follow<'a>(
 }
 
 /// The branch at one sample, coming from a neighbouring point.
-fn connect(sample: &Sample, from: Point, options: &Options) -> Result<(BranchSample, Point), Error> {
+fn connect(sample: &LambdaSample, from: BranchPoint, options: &Options) -> Result<(BranchSample, BranchPoint), Error> {
     let mut walk = Walk {
         valence: sample.valence,
         options,
@@ -208,14 +208,14 @@ struct Walk<'a> {
 
 /// Where a step has led.
 struct Reached {
-    point: Point,
+    point: BranchPoint,
     problem: Problem,
     optimum: search::Optimum,
 }
 
 impl Walk<'_> {
     /// Follows the minimum from a point to another lambda, in halves if it is corrected too far.
-    fn step(&mut self, from: Point, lambda: f64, halvings: usize) -> Result<Reached, Error> {
+    fn step(&mut self, from: BranchPoint, lambda: f64, halvings: usize) -> Result<Reached, Error> {
         let problem = Problem::new(self.valence, lambda, self.options)?;
         let predicted = from.predict(lambda);
         let (optimum, evaluations) = problem.continue_from(predicted)?;
@@ -226,7 +226,7 @@ impl Walk<'_> {
         if short || halvings == 0 {
             self.jumped |= !short;
             let point = if lambda == from.lambda {
-                Point { at, ..from }
+                BranchPoint { at, ..from }
             } else {
                 from.next(lambda, at)
             };

@@ -151,7 +151,7 @@ pub struct Minimum {
 
 /// All minima that were found at one lambda.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Sample {
+pub struct LambdaSample {
     /// The valence.
     pub valence: usize,
     /// The subdominant eigenvalue.
@@ -174,11 +174,11 @@ pub struct Sample {
 ///
 /// # Errors
 /// Any [`Error`] about a single lambda.
-pub fn sample(valence: usize, lambda: f64, options: &Options) -> Result<Sample, Error> {
+pub fn sample(valence: usize, lambda: f64, options: &Options) -> Result<LambdaSample, Error> {
     let problem = Problem::new(valence, lambda, options)?;
     let search = problem.search(options.starts)?;
     let minima: Result<Vec<_>, _> = search.optima.iter().map(|optimum| problem.describe(optimum)).collect();
-    Ok(Sample {
+    Ok(LambdaSample {
         valence,
         lambda,
         s: problem.domain.plane().s,

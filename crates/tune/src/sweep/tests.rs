@@ -55,7 +55,7 @@ fn ranges_and_lambdas_out_of_range_are_refused() {
     assert!(matches!(sample(6, 0.5, &margin), Err(Error::Scheme(_))));
 }
 
-fn samples(valence: usize, start: f64, end: f64, steps: usize) -> Vec<Sample> {
+fn samples(valence: usize, start: f64, end: f64, steps: usize) -> Vec<LambdaSample> {
     let lambdas = Range {
         start,
         end,

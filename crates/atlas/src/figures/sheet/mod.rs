@@ -23,7 +23,7 @@ use eigenring_spline::Jet;
 
 /// A point of a map with the value that is shown there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Point {
+pub struct MapPoint {
     /// The characteristic map; its first point of ring 1 is (1, 0).
     pub x: f64,
     /// The characteristic map.
@@ -34,14 +34,14 @@ pub struct Point {
     pub value: f64,
 }
 
-impl Point {
+impl MapPoint {
     /// The point below.
     pub fn plane(self) -> [f64; 2] {
         [self.x, self.y]
     }
 
-    fn scaled(self, factors: &Factors, times: i32) -> Point {
-        Point {
+    fn scaled(self, factors: &Factors, times: i32) -> MapPoint {
+        MapPoint {
             x: self.x * factors.plane.powi(times),
             y: self.y * factors.plane.powi(times),
             z: self.z * factors.height.powi(times),
@@ -49,9 +49,9 @@ impl Point {
         }
     }
 
-    fn between(self, other: Point, t: f64) -> Point {
+    fn between(self, other: MapPoint, t: f64) -> MapPoint {
         let mix = |a: f64, b: f64| a + t * (b - a);
-        Point {
+        MapPoint {
             x: mix(self.x, other.x),
             y: mix(self.y, other.y),
             z: mix(self.z, other.z),
@@ -102,7 +102,7 @@ pub struct Tile {
     /// Which patch.
     pub patch: PatchIndex,
     /// Its points.
-    pub points: Vec<Point>,
+    pub points: Vec<MapPoint>,
 }
 
 /// One annulus of patches, sampled.
@@ -199,7 +199,7 @@ impl Sheet {
             let at = |u: f64, v: f64| {
                 let [x, y, z] = surfaces.each_ref().map(|surface| surface.jet(u, v));
                 let (value, weight) = value(&x, &y, &z);
-                let point = Point {
+                let point = MapPoint {
                     x: x.value,
                     y: y.value,
                     z: z.value,
@@ -258,7 +258,7 @@ impl Sheet {
 
     /// The points of sector 0 with their parameters: steps of the net along its own and along the next spoke.
     /// Points that patches share are given once, those on the rim not at all.
-    pub fn sector_points(&self) -> impl Iterator<Item = (f64, f64, Point)> + '_ {
+    pub fn sector_points(&self) -> impl Iterator<Item = (f64, f64, MapPoint)> + '_ {
         let (cells, width) = (self.cells, self.cells + 1);
         let tiles = self.tiles.iter().filter(|tile| tile.patch.sector == 0);
         tiles.flat_map(move |tile| {
@@ -318,7 +318,7 @@ impl Sheet {
     }
 
     /// The cells of all patches, corners in turn.
-    pub fn quads(&self) -> impl Iterator<Item = [Point; 4]> + '_ {
+    pub fn quads(&self) -> impl Iterator<Item = [MapPoint; 4]> + '_ {
         let (cells, width) = (self.cells, self.cells + 1);
         self.tiles.iter().flat_map(move |tile| {
             let at = move |i: usize, j: usize| tile.points[i + j * width];
@@ -329,28 +329,35 @@ impl Sheet {
 
     /// Triangles from the inner boundary to the centre, the last corner twice, all with the boundary's mean
     /// value.
-    pub fn fan(&self) -> Vec<[Point; 4]> {
-        let edges: Vec<Vec<Point>> = self.inner_edges().collect();
+    pub fn fan(&self) -> Vec<[MapPoint; 4]> {
+        let edges: Vec<Vec<MapPoint>> = self.inner_edges().collect();
         let count = edges.iter().map(Vec::len).sum::<usize>() as f64;
         let value = edges.iter().flatten().map(|point| point.value).sum::<f64>() / count;
-        let centre = Point {
+        let centre = MapPoint {
             x: 0.0,
             y: 0.0,
             z: 0.0,
             value,
         };
         let pairs = edges.iter().flat_map(|edge| edge.windows(2));
-        let triangles = pairs.map(|pair| [Point { value, ..pair[0] }, Point { value, ..pair[1] }, centre, centre]);
+        let triangles = pairs.map(|pair| {
+            [
+                MapPoint { value, ..pair[0] },
+                MapPoint { value, ..pair[1] },
+                centre,
+                centre,
+            ]
+        });
         triangles.collect()
     }
 
-    fn line(&self, tile: &Tile, along_u: bool, at: usize) -> Vec<Point> {
+    fn line(&self, tile: &Tile, along_u: bool, at: usize) -> Vec<MapPoint> {
         let width = self.cells + 1;
         let index = |k: usize| if along_u { k + at * width } else { at + k * width };
         (0..width).map(|k| tile.points[index(k)]).collect()
     }
 
-    fn inner_edges(&self) -> impl Iterator<Item = Vec<Point>> + '_ {
+    fn inner_edges(&self) -> impl Iterator<Item = Vec<MapPoint>> + '_ {
         let inner = self.inner;
         self.tiles.iter().filter_map(move |tile| match tile.patch {
             PatchIndex { p, q, .. } if p == inner && q < inner => Some(self.line(tile, false, 0)),
@@ -361,7 +368,7 @@ impl Sheet {
 
     /// The boundaries of patches, each once except for the inner boundary, which is the outer one of the next
     /// annulus.
-    pub fn edges(&self) -> Vec<Vec<Point>> {
+    pub fn edges(&self) -> Vec<Vec<MapPoint>> {
         let mut edges = Vec::new();
         for tile in &self.tiles {
             let PatchIndex { p, q, .. } = tile.patch;
@@ -384,7 +391,7 @@ impl Sheet {
     }
 
     /// Isoparametric lines inside the patches, `parts` - 1 each way; none where the grid has no such lines.
-    pub fn isolines(&self, parts: usize) -> Vec<Vec<Point>> {
+    pub fn isolines(&self, parts: usize) -> Vec<Vec<MapPoint>> {
         if parts == 0 || !self.cells.is_multiple_of(parts) {
             return Vec::new();
         }
@@ -399,7 +406,7 @@ impl Sheet {
 
     /// Where the value is zero: the boundary of the region where `sign` times the value is negative, cell by
     /// cell, with linear interpolation along the cells' edges.
-    pub fn zero_lines(&self, sign: f64) -> Vec<[Point; 2]> {
+    pub fn zero_lines(&self, sign: f64) -> Vec<[MapPoint; 2]> {
         let mut segments = Vec::new();
         for corners in self.quads() {
             let wrong = corners.map(|corner| sign * corner.value < -ZERO);

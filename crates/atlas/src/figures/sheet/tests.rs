@@ -7,16 +7,16 @@ fn scheme(spec: &str, valence: usize) -> Scheme<f64> {
 }
 
 /// Twice the area of a polygon, by the shoelace formula.
-fn doubled_area(corners: &[Point]) -> f64 {
+fn doubled_area(corners: &[MapPoint]) -> f64 {
     let next = corners.iter().cycle().skip(1);
     corners.iter().zip(next).map(|(a, b)| a.x * b.y - a.y * b.x).sum()
 }
 
 /// The points of one sheet that lie where points of another do, in pairs.
-fn shared(a: &Sheet, b: &Sheet) -> Vec<(Point, Point)> {
-    let points = |sheet: &Sheet| -> Vec<Point> { sheet.tiles.iter().flat_map(|tile| tile.points.clone()).collect() };
+fn shared(a: &Sheet, b: &Sheet) -> Vec<(MapPoint, MapPoint)> {
+    let points = |sheet: &Sheet| -> Vec<MapPoint> { sheet.tiles.iter().flat_map(|tile| tile.points.clone()).collect() };
     let (a, b) = (points(a), points(b));
-    let near = |p: &Point, q: &&Point| (p.x - q.x).hypot(p.y - q.y) < 1e-9;
+    let near = |p: &MapPoint, q: &&MapPoint| (p.x - q.x).hypot(p.y - q.y) < 1e-9;
     a.iter()
         .filter_map(|p| b.iter().find(|q| near(p, q)).map(|q| (*p, *q)))
         .collect()
@@ -35,7 +35,8 @@ fn jacobians_are_differences_over_the_mean_area_of_a_patch() {
             for tile in sheet.tiles.iter().take(20) {
                 for (i, j) in [(1, 1), (8, 8), (3, 12), (15, 2)] {
                     let at = |i: usize, j: usize| tile.points[i + j * width];
-                    let difference = |a: Point, b: Point| [(b.x - a.x) / (2.0 * step), (b.y - a.y) / (2.0 * step)];
+                    let difference =
+                        |a: MapPoint, b: MapPoint| [(b.x - a.x) / (2.0 * step), (b.y - a.y) / (2.0 * step)];
                     let (u, v) = (
                         difference(at(i - 1, j), at(i + 1, j)),
                         difference(at(i, j - 1), at(i, j + 1)),
@@ -169,7 +170,7 @@ fn wrong_signs_are_outlined_where_the_gauss_curvature_has_them() {
 
 #[test]
 fn opposite_corners_are_cut_off_one_by_one() {
-    let point = |x: f64, y: f64, value: f64| Point { x, y, z: 0.0, value };
+    let point = |x: f64, y: f64, value: f64| MapPoint { x, y, z: 0.0, value };
     let sheet = |values: [f64; 4]| Sheet {
         lattice: Lattice::Vertex,
         inner: 1,

@@ -106,7 +106,7 @@ pub enum Root {
 
 /// A smooth curve `f2 = curve(f3)` on which a constraint is active.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Curve {
+pub enum ConstraintCurve {
     /// `f2 = (1-f3)/2`, an upper end.
     F1,
     /// `f2 = h f3/(1-g3-2h)`, a lower end.
@@ -121,16 +121,16 @@ pub enum Curve {
     Z0Upper(Root),
 }
 
-impl Curve {
+impl ConstraintCurve {
     /// The constraint that is active on the curve.
     pub fn constraint(self) -> Constraint {
         match self {
-            Curve::F1 => Constraint::F1,
-            Curve::D1 => Constraint::D1,
-            Curve::Theta => Constraint::Theta,
-            Curve::Centre(_) => Constraint::Centre,
-            Curve::Z0Lower(_) => Constraint::Z0Lower,
-            Curve::Z0Upper(_) => Constraint::Z0Upper,
+            ConstraintCurve::F1 => Constraint::F1,
+            ConstraintCurve::D1 => Constraint::D1,
+            ConstraintCurve::Theta => Constraint::Theta,
+            ConstraintCurve::Centre(_) => Constraint::Centre,
+            ConstraintCurve::Z0Lower(_) => Constraint::Z0Lower,
+            ConstraintCurve::Z0Upper(_) => Constraint::Z0Upper,
         }
     }
 }
@@ -142,6 +142,9 @@ mod tests {
     #[test]
     fn names_pad_like_text() {
         assert_eq!(format!("[{:>6}]", Constraint::D1), "[    d1]");
-        assert_eq!(Curve::Z0Lower(Root::Larger).constraint().to_string(), "z0_lower");
+        assert_eq!(
+            ConstraintCurve::Z0Lower(Root::Larger).constraint().to_string(),
+            "z0_lower"
+        );
     }
 }

@@ -19,7 +19,7 @@
 //! smaller root is computed as the product of the roots over the larger one, which loses no digits where `h
 //! f3` is small.
 
-use super::{Curve, Domain, Root};
+use super::{ConstraintCurve, Domain, Root};
 use crate::lambda::Plane;
 use crate::{Dual, Scalar};
 
@@ -89,22 +89,22 @@ impl Domain {
     /// `f2 = curve(f3)` over any scalar. Meant for f3 at which the curve exists, see [`Domain::curve`];
     /// elsewhere the root of a negative number is taken. At N = 4, where f3 is fixed, derivatives along f3
     /// have no meaning.
-    pub fn curve_over<S: Scalar + Copy>(&self, curve: Curve, f3: S) -> S {
+    pub fn curve_over<S: Scalar + Copy>(&self, curve: ConstraintCurve, f3: S) -> S {
         let plane = self.plane_over::<S>();
         let (one, two, mu, kappa) = (S::one(), S::ratio(2, 1), plane.mu(), S::exact(self.margin));
         let row = Row::new(&plane, f3);
         match curve {
-            Curve::F1 => (one - f3) / two,
-            Curve::D1 => row.h * f3 / (one - row.g3 - two * row.h),
-            Curve::Theta => (plane.lambda - f3) / (two * plane.cos_half_sector()),
-            Curve::Centre(root) => row.root(row.linear(one), root),
-            Curve::Z0Lower(root) => row.root(row.linear(row.t - kappa * mu), root),
-            Curve::Z0Upper(root) => row.root(row.linear(row.t - (two - kappa) * mu), root),
+            ConstraintCurve::F1 => (one - f3) / two,
+            ConstraintCurve::D1 => row.h * f3 / (one - row.g3 - two * row.h),
+            ConstraintCurve::Theta => (plane.lambda - f3) / (two * plane.cos_half_sector()),
+            ConstraintCurve::Centre(root) => row.root(row.linear(one), root),
+            ConstraintCurve::Z0Lower(root) => row.root(row.linear(row.t - kappa * mu), root),
+            ConstraintCurve::Z0Upper(root) => row.root(row.linear(row.t - (two - kappa) * mu), root),
         }
     }
 
     /// `f2 = curve(f3)` and its slope, or `None` where the curve does not exist.
-    pub fn curve(&self, curve: Curve, f3: f64) -> Option<(f64, f64)> {
+    pub fn curve(&self, curve: ConstraintCurve, f3: f64) -> Option<(f64, f64)> {
         let dual = self.curve_over(curve, Dual::<f64>::variable(f3, 0));
         (dual.value.is_finite() && dual.parts[0].is_finite()).then(|| (dual.value, dual.parts[0]))
     }

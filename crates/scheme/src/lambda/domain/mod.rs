@@ -38,7 +38,7 @@ mod strips;
 mod tests;
 
 pub use check::InfeasiblePoint;
-pub use constraint::{Constraint, Curve, Root};
+pub use constraint::{Constraint, ConstraintCurve, Root};
 pub use strips::Strip;
 
 use super::Plane;
@@ -79,7 +79,7 @@ pub struct F2End {
     /// Where it is.
     pub f2: f64,
     /// The curve it lies on.
-    pub curve: Curve,
+    pub curve: ConstraintCurve,
 }
 
 /// The feasible f2 at one f3, or one of two parts of them: `lower.f2 <= upper.f2`.
@@ -260,27 +260,27 @@ impl Domain {
             return Vec::new();
         }
         let theta = (plane.lambda - f3) / (2.0 * plane.cos_half_sector());
-        let mut lower = end(theta, Curve::Theta);
+        let mut lower = end(theta, ConstraintCurve::Theta);
         if row.h * f3 > theta * below_one {
-            lower = end(row.h * f3 / below_one, Curve::D1);
+            lower = end(row.h * f3 / below_one, ConstraintCurve::D1);
         }
-        let mut upper = end((1.0 - f3) / 2.0, Curve::F1);
+        let mut upper = end((1.0 - f3) / 2.0, ConstraintCurve::F1);
         let excess = row.t - (2.0 - self.margin) * mu;
         if excess > 0.0 {
             let Some([smaller, larger]) = row.roots(row.linear(excess)) else {
                 return Vec::new();
             };
             if smaller > lower.f2 {
-                lower = end(smaller, Curve::Z0Upper(Root::Smaller));
+                lower = end(smaller, ConstraintCurve::Z0Upper(Root::Smaller));
             }
             if larger < upper.f2 {
-                upper = end(larger, Curve::Z0Upper(Root::Larger));
+                upper = end(larger, ConstraintCurve::Z0Upper(Root::Larger));
             }
         }
-        let (value, curve): (f64, fn(Root) -> Curve) = if room < 1.0 {
-            (room, Curve::Z0Lower)
+        let (value, curve): (f64, fn(Root) -> ConstraintCurve) = if room < 1.0 {
+            (room, ConstraintCurve::Z0Lower)
         } else {
-            (1.0, Curve::Centre)
+            (1.0, ConstraintCurve::Centre)
         };
         let parts = match row.roots(row.linear(value)) {
             None => [Some((lower, upper)), None],

@@ -6,7 +6,7 @@
 //! an interval ends or the gap between two intervals closes (with a vertical tangent, if the two are the
 //! roots of one quadratic).
 
-use super::{Curve, Domain, F2Interval};
+use super::{ConstraintCurve, Domain, F2Interval};
 
 /// A range of f3 over which the same curves bound the feasible f2.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,10 +15,10 @@ pub struct Strip {
     pub f3: [f64; 2],
     /// Lower and upper curve of each interval of f2, ascending; empty where nothing is feasible (phi other
     /// than 6).
-    pub curves: Vec<[Curve; 2]>,
+    pub curves: Vec<[ConstraintCurve; 2]>,
 }
 
-type Structure = Vec<[Curve; 2]>;
+type Structure = Vec<[ConstraintCurve; 2]>;
 
 fn structure(intervals: &[F2Interval]) -> Structure {
     intervals.iter().map(|i| [i.lower.curve, i.upper.curve]).collect()

@@ -171,7 +171,8 @@ fn lowest_f3_at_valence_three() {
         assert!((lower.f3 - lowest).abs() <= 1e-4, "{lambda}: {}", lower.f3);
         assert!((upper.f3 - lambda).abs() < 1e-15);
         assert_eq!((lower.edge, upper.edge), (None, None));
-        let [theta, z0] = [Curve::Theta, Curve::Z0Upper(Root::Larger)].map(|c| domain.curve(c, lower.f3).unwrap().0);
+        let [theta, z0] = [ConstraintCurve::Theta, ConstraintCurve::Z0Upper(Root::Larger)]
+            .map(|c| domain.curve(c, lower.f3).unwrap().0);
         assert_relative_eq!(theta, z0, epsilon = 1e-12);
         assert_relative_eq!(theta, lambda - lower.f3, epsilon = 1e-15);
     }
@@ -259,7 +260,7 @@ fn slopes_are_those_of_central_differences() {
             let step = 1e-4 * (domain.f3_at(1.0) - domain.f3_at(0.0));
             for interval in domain.f2_intervals(f3) {
                 // d1 is never the tightest bound here
-                for curve in [interval.lower.curve, interval.upper.curve, Curve::D1] {
+                for curve in [interval.lower.curve, interval.upper.curve, ConstraintCurve::D1] {
                     let (Some((_, slope)), Some((left, _)), Some((right, _))) = (
                         domain.curve(curve, f3),
                         domain.curve(curve, f3 - step),

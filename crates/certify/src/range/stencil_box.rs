@@ -7,7 +7,7 @@ use eigenring_spline::Scalar;
 
 /// All schemes of an interval of lambda, on one branch of s.
 #[derive(Clone, Debug)]
-pub struct Point {
+pub struct StencilBox {
     /// The branch.
     pub branch: Branch,
     /// lambda, s, mu and the cosines.
@@ -66,7 +66,7 @@ pub fn branches(relaxation: &Relaxation, valence: usize, lambda: Interval) -> Ve
 
 /// The schemes on a tile, one for each branch of s that may hold there. `None` if a knot lies inside the
 /// tile.
-pub(crate) fn points(problem: &Problem, ends: [f64; 2]) -> Option<Vec<Point>> {
+pub(crate) fn points(problem: &Problem, ends: [f64; 2]) -> Option<Vec<StencilBox>> {
     let range = Interval::new(ends[0], ends[1])?;
     let lambda = Centred::<1>::parameter(range, 0);
     let (f2, f3) = problem.weights(ends, lambda)?;
@@ -80,7 +80,7 @@ pub(crate) fn points(problem: &Problem, ends: [f64; 2]) -> Option<Vec<Point>> {
                 phi: Centred::ratio(6, 1),
             };
             let f3 = f3.unwrap_or_else(|| plane.mu());
-            Point {
+            StencilBox {
                 branch,
                 plane,
                 f2,
@@ -92,7 +92,7 @@ pub(crate) fn points(problem: &Problem, ends: [f64; 2]) -> Option<Vec<Point>> {
     Some(points.collect())
 }
 
-impl Point {
+impl StencilBox {
     /// Whether all weights have a value on the whole interval: no closed form may divide by zero.
     pub fn is_bounded(&self) -> bool {
         let weights = self.stencil.weights.named().into_iter().map(|(_, weight)| weight);

@@ -10,7 +10,7 @@ use num_rational::BigRational;
 
 /// The rules at a valence: numbers, and formulas in what is open.
 #[derive(Clone, Debug)]
-pub(super) struct Entry {
+pub(super) struct ValenceRules {
     /// The limit level, at tension 1.
     pub limit: Level<Residual>,
     /// The named weights in it, and the order in which they read each other.
@@ -33,7 +33,7 @@ struct Leading {
     tension: Residual,
 }
 
-impl Entry {
+impl ValenceRules {
     /// Evaluates rules at a valence. Stencils' terms are counted in `terms`.
     pub(super) fn new(
         contents: &Contents,
@@ -102,7 +102,7 @@ impl Entry {
                 })
             }
         };
-        let mut entry = Entry {
+        let mut entry = ValenceRules {
             limit,
             names,
             order,
