@@ -13,8 +13,8 @@ use eigenring_scheme::{Complex, Site};
 use eigenring_spectral::{Eigenvalue, Matrix, Mode};
 use serde_json::{Value, json};
 
-/// Entries of `L^T R - I`, relative to the lengths of the vectors, beyond which they are refused: a missing or
-/// a doubled vector leaves one of the order of 1. Empirical: half of the digits.
+/// Entries of `L^T R - I`, relative to the lengths of the vectors, beyond which they are refused: a missing
+/// or a doubled vector leaves one of the order of 1. Empirical: half of the digits.
 const RESIDUAL: f64 = 1e-6;
 
 /// A right eigenvector and the left one that belongs to it.

@@ -12,8 +12,8 @@ pub struct Eigenvalue {
     /// The value as (real, imaginary).
     pub value: Complex<f64>,
     /// The Fourier index. Blocks k and N-k have conjugate spectra: a value that is in both is listed once,
-    /// with `k <= N/2`; one that is not real may be in one of them only, without mirror symmetry. `None` for rules
-    /// that differ from sector to sector.
+    /// with `k <= N/2`; one that is not real may be in one of them only, without mirror symmetry. `None` for
+    /// rules that differ from sector to sector.
     pub fourier: Option<usize>,
     /// How many blocks the multiplicities count: 2 for a value that blocks k and N-k share, else 1.
     pub blocks: usize,

@@ -4,8 +4,8 @@
 //! then cover it.
 //!
 //! A figure is a registered [`FigureEntry`]: a name, what it shows, what it takes, and a function from
-//! [`Inputs`] to [`Drawing`]s. Drawings are pure functions of their inputs; the command writes them. Each drawing comes
-//! with the tables of the numbers it shows, which are what tests compare.
+//! [`Inputs`] to [`Drawing`]s. Drawings are pure functions of their inputs; the command writes them. Each
+//! drawing comes with the tables of the numbers it shows, which are what tests compare.
 
 mod certificates;
 mod characteristic;
