@@ -13,6 +13,7 @@
 //! reciprocal condition number of the eigenvalue, given with each [`Mode`](crate::Mode).
 
 use crate::components::strong_components;
+use crate::core::sizes_of;
 use crate::{Block, Error};
 use eigenring_scheme::Complex;
 use faer::traits::ComplexField;
@@ -33,7 +34,10 @@ pub const NULL: f64 = 1e-11;
 
 /// Entries below this times the largest are rounding errors of zeros and carry no dependence: a few rounding
 /// units.
-const NEGLIGIBLE: f64 = 1e-15;
+pub(crate) const NEGLIGIBLE: f64 = 1e-15;
+
+/// Blocks of more unknowns have the dimensions of zero by sparse elimination.
+const MAX_DENSE: usize = 250;
 
 /// An eigenvalue of a block with its algebraic multiplicity there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -107,6 +111,12 @@ impl Block<f64> {
     /// # Errors
     /// [`Error::Decomposition`] as above.
     pub fn jordan_sizes(&self, value: Complex<f64>) -> Result<Vec<usize>, Error> {
+        if let Some(core) = self.core_for(value) {
+            return core.jordan_sizes(value);
+        }
+        if self.size() > MAX_DENSE && value == (0.0, 0.0) {
+            return Ok(self.nilpotent_sizes());
+        }
         let shifted = match self.shifted(value) {
             Shifted::Real(matrix) => Mat::from_fn(matrix.nrows(), matrix.nrows(), |i, j| c64::new(matrix[(i, j)], 0.0)),
             Shifted::Complex(matrix) => matrix,
@@ -122,15 +132,7 @@ impl Block<f64> {
             kernels.push(kernel);
             power = &power * &shifted;
         }
-        // how many blocks have at least size k
-        let at_least: Vec<usize> = kernels.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let mut sizes: Vec<usize> = Vec::new();
-        for (index, &count) in at_least.iter().enumerate() {
-            let next = at_least.get(index + 1).copied().unwrap_or(0);
-            sizes.extend(std::iter::repeat_n(index + 1, count.saturating_sub(next)));
-        }
-        sizes.reverse();
-        Ok(sizes)
+        Ok(sizes_of(&kernels[1..]))
     }
 
     /// `S - value`.

@@ -23,6 +23,7 @@
 
 mod annulus;
 mod components;
+mod core;
 mod echelon;
 mod eigen;
 mod error;

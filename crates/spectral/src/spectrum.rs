@@ -4,7 +4,7 @@ use crate::eigen::order;
 use crate::matrix::Assembly;
 use crate::repeated::{Precision, Repeated, repeated};
 use crate::{Block, BlockEigenvalue, Error, Extended, LocalSystem, local_matrix};
-use eigenring_scheme::{Complex, Level};
+use eigenring_scheme::{Complex, Level, Numbering};
 
 /// An eigenvalue of the local matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,7 +58,8 @@ pub struct Spectrum {
     pub eigenvalues: Vec<Eigenvalue>,
 }
 
-/// Blocks of more unknowns are decomposed in doubles, with gaps in place of tests: 250 take some seconds.
+/// Of blocks of more unknowns the core is decomposed, and if that has more, in doubles, with gaps in place of
+/// tests: 250 take some seconds.
 const MAX_EXTENDED: usize = 250;
 
 /// The same for matrices that are known in doubles only, of which less can be told.
@@ -80,7 +81,7 @@ impl LocalSystem {
     /// # Errors
     /// As [`LocalSystem::spectrum`]; those of [`fourier_blocks`](crate::fourier_blocks).
     pub fn spectrum_of(&self, level: &Level<Extended>) -> Result<Spectrum, Error> {
-        let rings = self.numbering().rings;
+        let rings = self.telling_rings();
         if !self.symmetric() {
             let matrix = Block::Real(local_matrix(level, rings)?);
             return self.listed(|_, block| multiplicities(&matrix, block, Precision::Extended));
@@ -100,6 +101,26 @@ impl LocalSystem {
             let known = |e: BlockEigenvalue| (e.value, e.multiplicity, (e.multiplicity == 1).then_some(1));
             Ok(block.eigenvalues()?.into_iter().map(known).collect())
         })
+    }
+
+    /// The rings that are looked at in more precision: all, or where a block is too large for that those of
+    /// the cores.
+    fn telling_rings(&self) -> usize {
+        let numbering = self.numbering();
+        let sizes = self.blocks().iter().map(Block::size);
+        if sizes.fold(0, usize::max) <= MAX_EXTENDED {
+            return numbering.rings;
+        }
+        let core = self.blocks().iter().map(Block::core).fold(0, usize::max);
+        let holds = |&rings: &usize| {
+            let inner = Numbering { rings, ..numbering };
+            core <= if self.symmetric() {
+                inner.sector_points()
+            } else {
+                inner.count()
+            }
+        };
+        (0..numbering.rings).find(holds).unwrap_or(numbering.rings)
     }
 
     /// The eigenvalues of all blocks; `of` gives those of one with algebraic and geometric multiplicity.
@@ -157,17 +178,30 @@ fn multiplicities(
         Precision::Double => MAX_LIFTED,
         Precision::Extended => MAX_EXTENDED,
     };
-    if block.size() <= most {
+    if block.size() <= most && block.size() == doubles.size() {
         let known = |e: Repeated| (e.value, e.algebraic, Some(e.geometric));
         return Ok(repeated(block, precision)?.into_iter().map(known).collect());
     }
-    let mut known = Vec::new();
-    for BlockEigenvalue { value, multiplicity } in doubles.eigenvalues()? {
-        let geometric = match multiplicity {
-            1 => 1,
-            _ => doubles.nullity(value)?.clamp(1, multiplicity),
-        };
-        known.push((value, multiplicity, Some(geometric)));
+    // what is not zero is told from the core
+    let core = doubles.core();
+    let mut known: Vec<Multiplicities> = Vec::new();
+    if core <= most {
+        let found = repeated(&block.leading(core), precision)?.into_iter();
+        known.extend(found.map(|e| (e.value, e.algebraic, Some(e.geometric))));
+    } else {
+        let inner = doubles.leading(core);
+        for BlockEigenvalue { value, multiplicity } in inner.eigenvalues()? {
+            let geometric = match multiplicity {
+                1 => 1,
+                _ => inner.nullity(value)?.clamp(1, multiplicity),
+            };
+            known.push((value, multiplicity, Some(geometric)));
+        }
+    }
+    known.retain(|e| e.0 != (0.0, 0.0));
+    let zeros = doubles.size() - known.iter().map(|e| e.1).sum::<usize>();
+    if zeros > 0 {
+        known.push(((0.0, 0.0), zeros, Some(doubles.sparse_nullity().clamp(1, zeros))));
     }
     Ok(known)
 }

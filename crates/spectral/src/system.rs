@@ -194,8 +194,7 @@ impl LocalSystem {
     pub fn modes(&self, fourier: usize, value: Complex<f64>) -> Result<Vec<Mode>, Error> {
         let n = self.valence();
         if !self.symmetric() {
-            let space = self.blocks[0].eigenspace(value, 0)?;
-            let Dual { right, left, .. } = dual(&space, 0, |i| i)?;
+            let Dual { right, left, .. } = self.dual(0, value, 0)?;
             let modes = right.into_iter().zip(left).map(|(values, functional)| Mode {
                 value,
                 fourier: None,
@@ -226,11 +225,9 @@ impl LocalSystem {
             return Ok(modes);
         }
         let net = FourierNet::<f64>::new(self.numbering, fourier, self.mirror)?;
-        let space = self.blocks[fourier].eigenspace(value, fourier)?;
-        let size = net.size();
         // the centre, first in the block, comes last in the echelon form
         let centre = usize::from(net.rows().first() == Some(&Site::CENTRE));
-        let Dual { right, left, pivots } = dual(&space, fourier, |i| (i + centre) % size)?;
+        let Dual { right, left, pivots } = self.dual(fourier, value, centre)?;
         let (rows, sites) = (net.rows(), self.numbering.sites());
         let mut modes = Vec::with_capacity(right.len());
         for ((unknowns, coefficients), pivot) in right.iter().zip(&left).zip(pivots) {
@@ -254,6 +251,20 @@ impl LocalSystem {
             });
         }
         Ok(modes)
+    }
+
+    /// Dual bases of an eigenspace, in the unknowns of a block whose first `centre` points come last in the
+    /// echelon form.
+    fn dual(&self, index: usize, value: Complex<f64>, centre: usize) -> Result<Dual, Error> {
+        let block = &self.blocks[index];
+        let core = block.core_for(value);
+        let inner = core.as_ref().unwrap_or(block);
+        let size = inner.size();
+        let mut found = dual(&inner.eigenspace(value, index)?, index, |i| (i + centre) % size)?;
+        found.right.iter_mut().for_each(|vector| block.extend(vector, value));
+        let zeros = |vector: &mut Vec<_>| vector.resize(block.size(), (0.0, 0.0));
+        found.left.iter_mut().for_each(zeros);
+        Ok(found)
     }
 
     /// The weights of the points in the limit position of the centre: the left eigenvector of the eigenvalue
