@@ -4,8 +4,8 @@
 //! block is `[A 0; B D]`, and D is strictly lower triangular from some ring on: it adds zeros to the
 //! eigenvalues of A and nothing else. A right vector of A belongs to one of the block by forward
 //! substitution, `y = (value - D)^-1 B x`, and a left one by zeros, so that what is known of an eigenvalue
-//! other than zero, its Jordan blocks included, is known from the core. Of 60 rings around a vertex of valence 5, a block of
-//! 3660 unknowns, the core has 20.
+//! other than zero, its Jordan blocks included, is known from the core. Of 60 rings around a vertex of
+//! valence 5, a block of 3660 unknowns, the core has 20.
 //!
 //! Zeros have the rank of the whole block and of its powers, which are sparse.
 
