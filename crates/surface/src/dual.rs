@@ -14,12 +14,13 @@
 //! Smoothing (orders 5, 7, ..) then moves each point to the mean of the centres of its four cells, a half
 //! cell's centre being the middle of its rim edge or its corner, and a rim point to the mean of its two `c`.
 
-use crate::features::INFINITE;
+use crate::features::{INFINITE, edge};
+use crate::limit::DualNet;
 use crate::refine::{Row, add};
 use crate::rules::{Method, Rules};
 use crate::{Boundary, Error, Mesh, Topology};
 use eigenring_scheme::families::{half_cell, tension_at};
-use eigenring_scheme::{Lattice, Site, Table};
+use eigenring_scheme::{Lattice, Site, Stencil, Table};
 use nalgebra::Point3;
 use std::collections::{BTreeSet, HashMap};
 
@@ -66,6 +67,40 @@ impl CellNet {
     /// [`Error::NoRule`] for darts, cusps and creases that are not sharp for ever, and for passes that are no
     /// corner cutting with averaging.
     pub fn refined(&self, rules: &Rules, level: usize) -> Result<CellNet, Error> {
+        let (mut net, _) = self.refined_with_places(rules, level)?;
+        if !net.rims {
+            // points at the rim of an open net are in cells still
+            net.mesh = net.mesh.without_unused();
+            net.points = vec![Role::Inner; net.mesh.points().len()];
+        }
+        Ok(net)
+    }
+
+    /// The points of the first level on the quarters of faces ([`quads`](crate::refine::quads)), a face for
+    /// each corner.
+    pub(crate) fn first_on_quads(self, rules: &Rules) -> Result<DualNet, Error> {
+        let topology = Topology::unchecked(&self.mesh);
+        let vertices = topology.vertex_count() as u32;
+        let (net, places) = self.refined_with_places(rules, 0)?;
+        // the quarters' points get the first numbers
+        let rims = places.on_rim.into_iter();
+        let rims = rims.map(|((number, end), at)| (edge(end, vertices + number), at));
+        let corners = places.kept.into_iter();
+        let all = DualNet {
+            points: net.mesh.points().to_vec(),
+            rims: HashMap::new(),
+            corners: HashMap::new(),
+        };
+        let mut rims: Vec<_> = rims.collect();
+        let mut corners: Vec<_> = corners.collect();
+        rims.sort_unstable();
+        corners.sort_unstable();
+        Ok(all
+            .part(places.cut.into_iter(), rims.into_iter(), corners.into_iter())
+            .0)
+    }
+
+    fn refined_with_places(&self, rules: &Rules, level: usize) -> Result<(CellNet, Places), Error> {
         let topology = Topology::unchecked(&self.mesh);
         let mut builder = Builder {
             net: self,
@@ -76,9 +111,11 @@ impl CellNet {
                 Method::Odd { u0 } => tension_at(u0, level),
                 _ => 1.0,
             },
-            cut: vec![u32::MAX; topology.half_count()],
-            on_rim: HashMap::new(),
-            kept: HashMap::new(),
+            places: Places {
+                cut: vec![u32::MAX; topology.half_count()],
+                on_rim: HashMap::new(),
+                kept: HashMap::new(),
+            },
             rows: Vec::new(),
             roles: Vec::new(),
             cells: Mesh::default(),
@@ -90,17 +127,13 @@ impl CellNet {
         } else {
             builder.later();
         }
-        let passes = builder.smoothing_passes()?;
+        let passes = smoothing_passes(rules, level)?;
+        let places = std::mem::take(&mut builder.places);
         let mut net = builder.finish()?;
         for _ in 0..passes {
             net.smooth()?;
         }
-        if !net.rims {
-            // points at the rim of an open net are in cells still
-            net.mesh = net.mesh.without_unused();
-            net.points = vec![Role::Inner; net.mesh.points().len()];
-        }
-        Ok(net)
+        Ok((net, places))
     }
 
     /// One mean of the centres of cells.
@@ -179,18 +212,24 @@ fn rim_neighbours(topology: &Topology, roles: &[Role], vertex: u32) -> Vec<u32> 
     all.filter(|&other| roles[other as usize] != Role::Inner).collect()
 }
 
-struct Builder<'a> {
-    net: &'a CellNet,
-    topology: &'a Topology,
-    rules: &'a Rules,
-    level: usize,
-    u: f64,
+/// Where the points of a level are, by what they come from.
+#[derive(Default)]
+struct Places {
     /// The new point of each corner of a face.
     cut: Vec<u32>,
     /// The new point of a rim edge (by number) next to one of its ends.
     on_rim: HashMap<(u32, u32), u32>,
     /// The new number of each corner.
     kept: HashMap<u32, u32>,
+}
+
+struct Builder<'a> {
+    net: &'a CellNet,
+    topology: &'a Topology,
+    rules: &'a Rules,
+    level: usize,
+    u: f64,
+    places: Places,
     rows: Vec<Row>,
     roles: Vec<Role>,
     cells: Mesh,
@@ -226,46 +265,18 @@ impl Builder<'_> {
                         .filter(|(_, w)| *w != 0.0)
                         .collect();
                     let half = halves.start + (i + 1 + usize::from(corner)) as u32;
-                    self.cut[half as usize] = self.point(row, Role::Inner);
+                    self.places.cut[half as usize] = self.point(row, Role::Inner);
                 }
                 continue;
             }
-            let n = halves.len();
-            let scheme = self.rules.inner(None, n)?;
-            let stencil = scheme.level(self.level).stencil(0, Site { sector: 0, x: 1, y: 1 })?;
-            for half in halves.clone() {
-                let place = (half - halves.start) as usize;
-                let mut row = Row::new();
-                for (site, weight) in stencil.terms() {
-                    if (site.x, site.y) != (1, 1) {
-                        return Err(no_rule("rules that read beyond their face", &[face]));
-                    }
-                    let at = halves.start + ((place + site.sector) % n) as u32;
-                    row.push((self.topology.origin(at), *weight));
-                }
-                self.cut[half as usize] = self.point(row, Role::Inner);
+            let corners = self.net.mesh.face(face as usize).to_vec();
+            let stencil = corner_stencil(self.rules, self.level, corners.len())?;
+            for (place, half) in halves.enumerate() {
+                let row = whole_cell(&stencil, &corners, place);
+                self.places.cut[half as usize] = self.point(row, Role::Inner);
             }
         }
         Ok(())
-    }
-
-    /// The number of mean steps after corner cutting.
-    fn smoothing_passes(&self) -> Result<usize, Error> {
-        let scheme = self.rules.inner(None, 4)?;
-        let passes = scheme.level(self.level).passes();
-        let chain: Vec<Lattice> = passes.iter().map(|pass| pass.to()).collect();
-        let average = eigenring_scheme::Line::average();
-        let fits = passes[0].scale() == 2
-            && chain[0] == Lattice::Face
-            && chain[1..]
-                .chunks(2)
-                .all(|pair| pair == [Lattice::Vertex, Lattice::Face])
-            && passes[1..].iter().all(|pass| pass.line() == Some(&average));
-        if fits {
-            Ok(chain.len() / 2)
-        } else {
-            Err(no_rule("passes other than corner cutting and averages", &[]))
-        }
     }
 
     /// The rim edges of the control mesh.
@@ -304,22 +315,25 @@ impl Builder<'_> {
             for (near, far) in [(v, w), (w, v)] {
                 let weight = 1.0 / (2.0 * (1.0 + u));
                 let point = self.point(vec![(near, 1.0 - weight), (far, weight)], Role::Rim);
-                self.on_rim.insert((number, near), point);
+                self.places.on_rim.insert((number, near), point);
             }
         }
         for face in 0..topology.face_count() as u32 {
-            let corners: Vec<u32> = topology.face_halves(face).map(|half| self.cut[half as usize]).collect();
+            let corners: Vec<u32> = topology
+                .face_halves(face)
+                .map(|half| self.places.cut[half as usize])
+                .collect();
             self.cell(&corners, None);
         }
         for half in 0..topology.half_count() as u32 {
             let number = topology.edge(half);
             let [v, w] = topology.ends(half);
-            let own = [half, topology.next(half)].map(|half| self.cut[half as usize]);
+            let own = [half, topology.next(half)].map(|half| self.places.cut[half as usize]);
             if rims[number as usize] {
-                let [b_v, b_w] = [v, w].map(|end| self.on_rim[&(number, end)]);
+                let [b_v, b_w] = [v, w].map(|end| self.places.on_rim[&(number, end)]);
                 self.cell(&[b_w, own[1], own[0], b_v], Some(false));
             } else if let Some(twin) = topology.twin(half).filter(|&twin| half < twin) {
-                let other = [twin, topology.next(twin)].map(|half| self.cut[half as usize]);
+                let other = [twin, topology.next(twin)].map(|half| self.places.cut[half as usize]);
                 // below the edge from v to w, then above it back
                 self.cell(&[other[1], other[0], own[1], own[0]], None);
             }
@@ -340,7 +354,11 @@ impl Builder<'_> {
                 0 if tagged && self.net.rims => cusps.push(vertex),
                 1 => darts.push(vertex),
                 0 if fan.is_closed() => {
-                    let corners: Vec<u32> = fan.spokes.iter().map(|&spoke| self.cut[spoke as usize]).collect();
+                    let corners: Vec<u32> = fan
+                        .spokes
+                        .iter()
+                        .map(|&spoke| self.places.cut[spoke as usize])
+                        .collect();
                     self.cell(&corners, None);
                 }
                 0 => {}
@@ -348,7 +366,7 @@ impl Builder<'_> {
                     let corner = tagged || one_face || count > 2;
                     let front = corner.then(|| {
                         let point = self.point(vec![(vertex, 1.0)], Role::Corner);
-                        self.kept.insert(vertex, point);
+                        self.places.kept.insert(vertex, point);
                         point
                     });
                     let n = fan.spokes.len();
@@ -361,10 +379,10 @@ impl Builder<'_> {
                     for pair in starts.windows(2) {
                         let mut corners: Vec<u32> = front.into_iter().collect();
                         let spoke = |i: usize| fan.spokes[i % n];
-                        corners.push(self.on_rim[&(topology.edge(spoke(pair[0])), vertex)]);
-                        corners.extend((pair[0]..pair[1]).map(|i| self.cut[spoke(i) as usize]));
+                        corners.push(self.places.on_rim[&(topology.edge(spoke(pair[0])), vertex)]);
+                        corners.extend((pair[0]..pair[1]).map(|i| self.places.cut[spoke(i) as usize]));
                         let end = topology.edge(topology.previous(spoke(pair[1] - 1)));
-                        corners.push(self.on_rim[&(end, vertex)]);
+                        corners.push(self.places.on_rim[&(end, vertex)]);
                         self.cell(&corners, Some(corner));
                     }
                 }
@@ -385,7 +403,7 @@ impl Builder<'_> {
         for vertex in 0..topology.vertex_count() as u32 {
             if role(vertex) == Role::Corner {
                 let point = self.point(vec![(vertex, 1.0)], Role::Corner);
-                self.kept.insert(vertex, point);
+                self.places.kept.insert(vertex, point);
             }
         }
         for number in 0..topology.edge_count() as u32 {
@@ -404,13 +422,13 @@ impl Builder<'_> {
                     _ => add(&mut row, to, &vec![(own, 0.5), (other, 0.5)]),
                 }
                 let point = self.point(row, Role::Rim);
-                self.on_rim.insert((number, own), point);
+                self.places.on_rim.insert((number, own), point);
             }
         }
         for cell in 0..topology.face_count() as u32 {
             let halves: Vec<u32> = topology.face_halves(cell).collect();
             let Some(corner) = net.halves[cell as usize] else {
-                let corners: Vec<u32> = halves.iter().map(|&half| self.cut[half as usize]).collect();
+                let corners: Vec<u32> = halves.iter().map(|&half| self.places.cut[half as usize]).collect();
                 self.cell(&corners, None);
                 continue;
             };
@@ -418,13 +436,17 @@ impl Builder<'_> {
             let last = halves.len() - 1;
             let mut corners = Vec::with_capacity(halves.len());
             if corner {
-                corners.push(self.kept[&topology.origin(halves[0])]);
+                corners.push(self.places.kept[&topology.origin(halves[0])]);
             }
             // the rim edge before b_r and the one after b_l
             let before = topology.edge(topology.previous(halves[first]));
-            corners.push(self.on_rim[&(before, topology.origin(halves[first]))]);
-            corners.extend(halves[first + 1..last].iter().map(|&half| self.cut[half as usize]));
-            corners.push(self.on_rim[&(topology.edge(halves[last]), topology.origin(halves[last]))]);
+            corners.push(self.places.on_rim[&(before, topology.origin(halves[first]))]);
+            corners.extend(
+                halves[first + 1..last]
+                    .iter()
+                    .map(|&half| self.places.cut[half as usize]),
+            );
+            corners.push(self.places.on_rim[&(topology.edge(halves[last]), topology.origin(halves[last]))]);
             self.cell(&corners, Some(corner));
         }
         for half in 0..topology.half_count() as u32 {
@@ -432,19 +454,19 @@ impl Builder<'_> {
             let [x, y] = topology.ends(half);
             match (role(x), role(y)) {
                 (Role::Inner, Role::Inner) if half < twin => {
-                    let own = [half, topology.next(half)].map(|half| self.cut[half as usize]);
-                    let other = [twin, topology.next(twin)].map(|half| self.cut[half as usize]);
+                    let own = [half, topology.next(half)].map(|half| self.places.cut[half as usize]);
+                    let other = [twin, topology.next(twin)].map(|half| self.places.cut[half as usize]);
                     self.cell(&[other[1], other[0], own[1], own[0]], None);
                 }
                 (Role::Rim, Role::Inner) => {
                     // upwards from the rim: the left cell begins here, the right one ends here
                     let left = topology.edge(topology.previous(half));
                     let right = topology.edge(topology.next(twin));
-                    let [b_r, b_l] = [right, left].map(|number| self.on_rim[&(number, x)]);
+                    let [b_r, b_l] = [right, left].map(|number| self.places.on_rim[&(number, x)]);
                     let corners = [
                         b_r,
-                        self.cut[twin as usize],
-                        self.cut[topology.next(half) as usize],
+                        self.places.cut[twin as usize],
+                        self.places.cut[topology.next(half) as usize],
                         b_l,
                     ];
                     self.cell(&corners, Some(false));
@@ -455,7 +477,11 @@ impl Builder<'_> {
         for vertex in 0..topology.vertex_count() as u32 {
             let fan = topology.fan(vertex);
             if role(vertex) == Role::Inner && fan.is_closed() && !fan.spokes.is_empty() {
-                let corners: Vec<u32> = fan.spokes.iter().map(|&spoke| self.cut[spoke as usize]).collect();
+                let corners: Vec<u32> = fan
+                    .spokes
+                    .iter()
+                    .map(|&spoke| self.places.cut[spoke as usize])
+                    .collect();
                 self.cell(&corners, None);
             }
         }
@@ -477,6 +503,45 @@ impl Builder<'_> {
             control: false,
             rims: self.net.rims,
         })
+    }
+}
+
+/// The weights that a corner of a face, or of a cell, takes from its own and the others in turn, by their
+/// sectors.
+pub(crate) fn corner_stencil(rules: &Rules, level: usize, n: usize) -> Result<Stencil<f64>, Error> {
+    let scheme = rules.inner(None, n)?;
+    let stencil = scheme.level(level).stencil(0, Site { sector: 0, x: 1, y: 1 })?;
+    if stencil.terms().iter().all(|(site, _)| (site.x, site.y) == (1, 1)) {
+        Ok(stencil)
+    } else {
+        Err(no_rule("rules that read beyond their face", &[]))
+    }
+}
+
+/// The row of a corner, over the points in turn.
+pub(crate) fn whole_cell(stencil: &Stencil<f64>, points: &[u32], place: usize) -> Row {
+    let terms = stencil.terms().iter();
+    terms
+        .map(|(site, weight)| (points[(place + site.sector) % points.len()], *weight))
+        .collect()
+}
+
+/// The number of mean steps after corner cutting.
+pub(crate) fn smoothing_passes(rules: &Rules, level: usize) -> Result<usize, Error> {
+    let scheme = rules.inner(None, 4)?;
+    let passes = scheme.level(level).passes();
+    let chain: Vec<Lattice> = passes.iter().map(|pass| pass.to()).collect();
+    let average = eigenring_scheme::Line::average();
+    let fits = passes[0].scale() == 2
+        && chain[0] == Lattice::Face
+        && chain[1..]
+            .chunks(2)
+            .all(|pair| pair == [Lattice::Vertex, Lattice::Face])
+        && passes[1..].iter().all(|pass| pass.line() == Some(&average));
+    if fits {
+        Ok(chain.len() / 2)
+    } else {
+        Err(no_rule("passes other than corner cutting and averages", &[]))
     }
 }
 

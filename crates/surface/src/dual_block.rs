@@ -18,11 +18,6 @@ struct Blocks<'a> {
     rules: &'a Rules,
 }
 
-/// The points of the first level, in the order of corners of faces.
-pub(crate) fn first_points(mesh: &Mesh, topology: &Topology, rules: &Rules) -> Result<Vec<Point3<f64>>, Error> {
-    Blocks { topology, rules }.first(mesh)
-}
-
 /// Where the point `(x, y)` of the block of a corner is.
 fn at(n: usize, half: u32, x: usize, y: usize) -> usize {
     (half as usize * n + y) * n + x

@@ -12,6 +12,7 @@
 
 use crate::active::{Active, Ends, Kind, Masks};
 use crate::features::{after_one_level, edge};
+use crate::limit::DualNet;
 use crate::rules::{Method, Rules};
 use crate::walk::locate;
 use crate::{Error, Features, Mesh, Topology};
@@ -30,8 +31,8 @@ pub(crate) struct Step {
     pub tables: Vec<Table<f64>>,
     /// For each face the half-edge from whose corner it was cut.
     pub halves: Vec<u32>,
-    /// Of dual schemes the points, one for each face; their rows are those of the tables.
-    pub values: Option<Vec<Point3<f64>>>,
+    /// Of dual schemes the control points, of which the tables have the rows.
+    pub net: Option<DualNet>,
 }
 
 /// The quads of a mesh: of each face one for each corner, with points that are not set.
@@ -158,7 +159,7 @@ impl Split {
                 mesh: self.mesh,
                 tables,
                 halves: (0..all).collect(),
-                values: None,
+                net: None,
             });
         }
         let kept = |face: &u32| self.mesh.face(*face as usize).iter().all(|&v| !missing[v as usize]);
@@ -172,7 +173,7 @@ impl Split {
             mesh,
             tables,
             halves,
-            values: None,
+            net: None,
         })
     }
 }

@@ -27,7 +27,7 @@ impl<'a> Refiner<'a> {
         }
     }
 
-    fn boundary_of(&self, mesh: &Mesh) -> Boundary {
+    pub(crate) fn boundary_of(&self, mesh: &Mesh) -> Boundary {
         self.boundary.or(mesh.features.boundary).unwrap_or(Boundary::Edge)
     }
 

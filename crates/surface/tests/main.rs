@@ -5,3 +5,4 @@ mod common;
 mod files;
 mod limits;
 mod references;
+mod tension_limits;

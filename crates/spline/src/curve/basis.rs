@@ -139,8 +139,21 @@ impl Basis {
         nodes
     }
 
+    /// The derivative of H at `0 < a < 1`.
+    pub(super) fn hat_slope(&self, a: f64) -> f64 {
+        let u = self.tension.value();
+        match self.tension.angle() {
+            Angle::Polynomial => -1.0,
+            Angle::Trigonometric(w) => -w * w * (w * (1.0 - a)).cos() / (4.0 * (1.0 - u) * (1.0 + u)),
+            Angle::Hyperbolic(w) => {
+                let fall = (-w).exp_m1();
+                -w * w / 2.0 * (-w * a).exp() * (1.0 + (-2.0 * w * (1.0 - a)).exp()) / (fall * fall)
+            }
+        }
+    }
+
     /// H at `0 <= a <= 1`.
-    fn hat(&self, a: f64) -> f64 {
+    pub(super) fn hat(&self, a: f64) -> f64 {
         let u = self.tension.value();
         match self.tension.angle() {
             Angle::Polynomial => 1.0 - a,

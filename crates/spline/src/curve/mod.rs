@@ -28,6 +28,7 @@
 mod axis;
 mod basis;
 mod grid;
+mod piece;
 mod polygon;
 mod revolution;
 mod rule;
@@ -37,6 +38,7 @@ mod tension;
 pub use axis::{Axis, Weights};
 pub use basis::Basis;
 pub use grid::Grid;
+pub use piece::{Piece, Values};
 pub use polygon::Curve;
 pub use rule::{Rule, rules};
 pub use space::{Function, Space};

@@ -1,13 +1,19 @@
-//! The local matrix around an irregular centre, split into limit, tangents and rest.
+//! The local matrices around an irregular centre, and what splits limit and tangents off.
+//!
+//! Levels may differ for a while (tension) before all are alike. The functionals of the limit `l0` and of the
+//! tangents `L` are the left eigenvectors of the last matrix, carried back: `l0_l = l0_(l+1) S_l`, `L_l =
+//! L_(l+1) S_l / lambda`, freed of constants at each step, since their rounding would grow like `lambda^-l`.
+//! The maps `R` go forwards from the last matrix's right eigenvectors, `R_(l+1) = S_l R_l / lambda`.
 
-use super::local::{Local, Reach};
-use super::patch::{Jet3, control, jet};
+use super::kernel::Kernel;
+use super::local::Local;
+use super::patch::Patch;
 use crate::Error;
 use crate::refine::{Row, Step, add};
 use crate::rules::Rules;
+use eigenring_scheme::Table;
 use eigenring_spectral::{Block, Matrix};
-use nalgebra::{Point3, Vector3};
-use std::collections::HashMap;
+use std::sync::{Arc, OnceLock};
 
 /// Local matrices beyond this size are not decomposed: the positions of their centres are known, their
 /// tangents are not. A valence of about 450.
@@ -55,23 +61,55 @@ pub(crate) struct Pair {
     pub left: [Vec<f64>; 2],
 }
 
-/// Patches away from the centre: the control points of a quarter of the face, or of quarters of it.
-#[derive(Debug)]
-pub(crate) enum Annulus {
-    Patch(Box<[Row; 16]>),
-    Split(Box<[Annulus; 4]>),
+/// What refines parts of a surface.
+#[derive(Clone, Copy)]
+pub(crate) struct Context<'a> {
+    pub rules: &'a Rules,
+    pub kernel: &'a Kernel,
 }
 
-/// A centre at the first corner of a face, with the part around the face that refinement reproduces.
+/// A quarter of a face beside the centre, or a quarter of one.
 #[derive(Debug)]
-pub(crate) struct Centre {
+pub(crate) struct Quarter {
+    local: Local,
+    /// The level whose control points it has.
+    level: usize,
+    split: OnceLock<Option<Box<Split>>>,
+}
+
+/// A quarter that is no regular piece yet.
+#[derive(Debug)]
+struct Split {
+    tables: Vec<Table<f64>>,
+    quarters: [Quarter; 4],
+}
+
+/// One level around a centre at the first corner of a face, on the part around the face that refinement
+/// reproduces.
+#[derive(Debug)]
+pub(crate) struct Stage {
+    tables: Vec<Table<f64>>,
     /// The rows of the next part's points.
     pub matrix: Vec<Row>,
-    /// The limit of the centre.
+    /// The functional of the limit.
     pub limit: Vec<f64>,
-    pub pair: Result<Pair, Undefined>,
+    /// Those of the tangents.
+    pub left: Option<[Vec<f64>; 2]>,
     /// The quarters at the second, third and last corner.
-    pub annulus: [Annulus; 3],
+    quarters: [Quarter; 3],
+}
+
+/// A centre at the first corner of a face.
+#[derive(Debug)]
+pub(crate) struct Centre {
+    /// Levels that differ, then the one that all others equal.
+    pub stages: Vec<Arc<Stage>>,
+    /// The dominant pair of the last matrix.
+    pub lambda: Result<[f64; 2], Undefined>,
+    /// The maps R of each level, a row for each point; without a pair none.
+    pub right: Vec<Vec<[f64; 2]>>,
+    /// What the map of the last level, carried forwards, has beyond its eigenvectors.
+    pub beyond: Option<Vec<[f64; 2]>>,
 }
 
 /// The row of a refined point over the points before.
@@ -88,42 +126,6 @@ pub(crate) fn composed(refined: &Step, index: u32) -> Row {
     row
 }
 
-fn over(row: &Row, rows: &[Row]) -> Row {
-    let mut sum = Row::new();
-    for &(at, weight) in row {
-        add(&mut sum, weight, &rows[at as usize]);
-    }
-    sum
-}
-
-fn annulus(local: &Local, rows: &[Row], rules: &Rules, reach: Reach, depth: usize) -> Result<Annulus, Error> {
-    let near = reach == Reach::Two && local.is_near_special(rules);
-    if local.irregular(rules).is_empty() && !near {
-        let points = control(local).map(|row| over(&row, rows));
-        return Ok(Annulus::Patch(Box::new(points)));
-    }
-    if depth == 0 {
-        return Err(Error::NoRule {
-            what: "special rules that reach too far for limits".to_owned(),
-            elements: "an irregular vertex".to_owned(),
-            accepted: "are rules of the points next to the vertex".to_owned(),
-        });
-    }
-    let refined = local.refined(rules)?;
-    let mut quarters = Vec::with_capacity(4);
-    for corner in 0..4 {
-        let child = local.child(&refined, corner, reach).ok_or_else(missing)?;
-        let fine: Vec<Row> = child
-            .ids
-            .iter()
-            .map(|&id| over(&composed(&refined, id), rows))
-            .collect();
-        quarters.push(annulus(&child, &fine, rules, reach, depth - 1)?);
-    }
-    let quarters: [Annulus; 4] = quarters.try_into().map_err(|_| missing())?;
-    Ok(Annulus::Split(Box::new(quarters)))
-}
-
 /// A part of a mesh that ends where its rules read: at a boundary without rules.
 pub(crate) fn missing() -> Error {
     Error::NoRule {
@@ -133,28 +135,262 @@ pub(crate) fn missing() -> Error {
     }
 }
 
-impl Centre {
-    /// The centre at the first corner of a part, of which `child` is the refined image.
-    pub fn new(local: &Local, refined: &Step, child: &Local, rules: &Rules, reach: Reach) -> Result<Self, Error> {
-        let matrix: Vec<Row> = child.unknowns().iter().map(|&id| composed(refined, id)).collect();
-        let mut quarters = Vec::with_capacity(3);
-        for corner in 1..4 {
-            let quarter = local.child(refined, corner, reach).ok_or_else(missing)?;
-            let rows: Vec<Row> = quarter.unknowns().iter().map(|&id| composed(refined, id)).collect();
-            quarters.push(annulus(&quarter, &rows, rules, reach, 2)?);
-        }
-        Ok(Centre {
-            pair: pair(&matrix, local)?,
-            limit: limit(&matrix),
-            matrix,
-            annulus: quarters.try_into().map_err(|_| missing())?,
+impl Quarter {
+    fn new(local: &Local, refined: &Step, corner: u32, level: usize, kernel: &Kernel) -> Result<Self, Error> {
+        Ok(Quarter {
+            local: local.child(refined, corner, kernel.reach()).ok_or_else(missing)?,
+            level,
+            split: OnceLock::new(),
         })
     }
 
-    /// Whether a net's height over the tangent plane has a part in each eigenvalue beyond the pair: the
-    /// largest modulus that it has.
+    /// The piece at a place of the quarter, whose control points are picked from those of the refined part:
+    /// with the place in the piece, the quarters that lead there, and how much finer its parameters are.
+    fn patch(&self, context: Context<'_>, refined: &[[f64; 3]], at: &mut Path, depth: usize) -> Result<Patch, Error> {
+        let points: Vec<[f64; 3]> = self.local.unknowns().iter().map(|&id| refined[id as usize]).collect();
+        match self.split(context, depth)? {
+            None => Patch::new(&self.local, &points, context.kernel, self.level),
+            Some(split) => {
+                let quarter = at.descend();
+                let refined = applied(&split.tables, &points)?;
+                split.quarters[quarter].patch(context, &refined, at, depth - 1)
+            }
+        }
+    }
+
+    /// Moves a place into the quarters where it lies, without computing anything there.
+    fn locate(&self, context: Context<'_>, at: &mut Path, depth: usize) -> Result<(), Error> {
+        if let Some(split) = self.split(context, depth)? {
+            let quarter = at.descend();
+            split.quarters[quarter].locate(context, at, depth - 1)?;
+        }
+        Ok(())
+    }
+
+    /// The quarters of a quarter that is not regular.
+    fn split(&self, context: Context<'_>, depth: usize) -> Result<Option<&Split>, Error> {
+        if let Some(known) = self.split.get() {
+            return Ok(known.as_deref());
+        }
+        let Context { rules, kernel } = context;
+        let near = kernel.beyond && self.local.is_near_special(rules);
+        let split = if self.local.irregular(rules, kernel.rings).is_empty() && !near {
+            None
+        } else if depth == 0 {
+            return Err(Error::NoRule {
+                what: "special rules that reach too far for limits".to_owned(),
+                elements: "an irregular vertex".to_owned(),
+                accepted: "are rules of the points next to the vertex".to_owned(),
+            });
+        } else {
+            let refined = self.local.refined(rules, kernel, self.level)?;
+            let quarter = |corner| Quarter::new(&self.local, &refined, corner, self.level + 1, kernel);
+            let quarters = [quarter(0)?, quarter(1)?, quarter(2)?, quarter(3)?];
+            let tables = refined.tables;
+            Some(Box::new(Split { tables, quarters }))
+        };
+        Ok(self.split.get_or_init(|| split).as_deref())
+    }
+}
+
+/// A place in a quarter, on its way into the piece where it lies.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Path {
+    pub s: f64,
+    pub t: f64,
+    /// The corners of the quarters, in base 4 after the first.
+    pub name: u64,
+    /// How much finer the parameters are than those of the face.
+    pub finer: f64,
+}
+
+impl Path {
+    fn descend(&mut self) -> usize {
+        let (quarter, s, t) = quartered(self.s, self.t);
+        *self = Path {
+            s,
+            t,
+            name: 4 * self.name + quarter as u64,
+            finer: 2.0 * self.finer,
+        };
+        quarter
+    }
+}
+
+/// A quarter at distance 1 from the centre, in units of its own size, is at distance `2^d` after d cuts: a
+/// piece that reads 15 rings, the most, is free of the centre after 4; one more for rules that reach farther.
+const DEEPEST: usize = 5;
+
+fn applied(tables: &[Table<f64>], points: &[[f64; 3]]) -> Result<Vec<[f64; 3]>, Error> {
+    let mut points = points.to_vec();
+    for table in tables {
+        points = table.apply(&points)?;
+    }
+    Ok(points)
+}
+
+/// A row times a matrix.
+fn times(row: &[f64], matrix: &[Row]) -> Vec<f64> {
+    let mut product = vec![0.0; row.len()];
+    for (terms, weight) in matrix.iter().zip(row) {
+        terms.iter().for_each(|&(at, w)| product[at as usize] += weight * w);
+    }
+    product
+}
+
+impl Stage {
+    /// A level, of which `child` is the refined image; `next` is the level after it, and the pair belongs to
+    /// that after which all are alike.
+    pub fn new(
+        local: &Local,
+        refined: Step,
+        child: &Local,
+        kernel: &Kernel,
+        level: usize,
+        next: Option<(&Stage, &Result<Pair, Undefined>)>,
+    ) -> Result<(Self, Option<Result<Pair, Undefined>>), Error> {
+        let matrix: Vec<Row> = child.unknowns().iter().map(|&id| composed(&refined, id)).collect();
+        let quarter = |corner| Quarter::new(local, &refined, corner, level + 1, kernel);
+        let quarters = [quarter(1)?, quarter(2)?, quarter(3)?];
+        let (limit, left, own) = match next {
+            None => {
+                let pair = pair(&matrix, local)?;
+                (
+                    limit(&matrix),
+                    pair.as_ref().ok().map(|pair| pair.left.clone()),
+                    Some(pair),
+                )
+            }
+            Some((next, pair)) => {
+                let limit = times(&next.limit, &matrix);
+                let left = match (&next.left, pair) {
+                    (Some(left), Ok(pair)) => Some([0, 1].map(|i| {
+                        let mut row = times(&left[i], &matrix);
+                        row.iter_mut().for_each(|w| *w /= pair.lambda[i]);
+                        let constant: f64 = row.iter().sum();
+                        row.iter_mut().zip(&limit).for_each(|(w, l)| *w -= constant * l);
+                        row
+                    })),
+                    _ => None,
+                };
+                (limit, left, None)
+            }
+        };
+        let stage = Stage {
+            tables: refined.tables,
+            matrix,
+            limit,
+            left,
+            quarters,
+        };
+        Ok((stage, own))
+    }
+
+    /// Finds the piece in which a place of a quarter (1 to 3) lies.
+    pub fn locate(&self, context: Context<'_>, quarter: usize, s: f64, t: f64) -> Result<Path, Error> {
+        let mut path = Path {
+            s,
+            t,
+            name: quarter as u64,
+            finer: 2.0,
+        };
+        self.quarters[quarter - 1].locate(context, &mut path, DEEPEST)?;
+        Ok(path)
+    }
+
+    /// That piece, for control points of this level.
+    pub fn patch(
+        &self,
+        context: Context<'_>,
+        points: &[[f64; 3]],
+        quarter: usize,
+        s: f64,
+        t: f64,
+    ) -> Result<Patch, Error> {
+        let mut path = Path {
+            s,
+            t,
+            name: 0,
+            finer: 1.0,
+        };
+        let refined = applied(&self.tables, points)?;
+        self.quarters[quarter - 1].patch(context, &refined, &mut path, DEEPEST)
+    }
+}
+
+impl Centre {
+    /// The centre of these levels.
+    pub fn new(stages: Vec<Arc<Stage>>, pair: &Result<Pair, Undefined>) -> Self {
+        let Ok(pair) = pair else {
+            return Centre {
+                lambda: pair.as_ref().map(|pair| pair.lambda).map_err(|&why| why),
+                stages,
+                right: Vec::new(),
+                beyond: None,
+            };
+        };
+        let dot = |row: &[f64], map: &[[f64; 2]], k: usize| -> f64 { row.iter().zip(map).map(|(w, r)| w * r[k]).sum() };
+        let free = |stage: &Stage, map: &mut Vec<[f64; 2]>| {
+            let constant = [0, 1].map(|k| dot(&stage.limit, map, k));
+            map.iter_mut().for_each(|r| (0..2).for_each(|k| r[k] -= constant[k]));
+        };
+        let (mut right, mut beyond) = (vec![pair.right.clone()], None);
+        if let (true, Some(left)) = (stages.len() > 1, &stages[0].left) {
+            free(&stages[0], &mut right[0]);
+            let gram = [0, 1].map(|i| [0, 1].map(|k| dot(&left[i], &right[0], k)));
+            let determinant = gram[0][0] * gram[1][1] - gram[0][1] * gram[1][0];
+            for r in &mut right[0] {
+                *r = [
+                    (r[0] * gram[1][1] - r[1] * gram[1][0]) / determinant,
+                    (r[1] * gram[0][0] - r[0] * gram[0][1]) / determinant,
+                ];
+            }
+            for (stage, next) in stages.iter().zip(&stages[1..]) {
+                let before = &right[right.len() - 1];
+                let row = |row: &Row| {
+                    [0, 1].map(|k| {
+                        let sum: f64 = row.iter().map(|&(at, w)| w * before[at as usize][k]).sum();
+                        sum / pair.lambda[k]
+                    })
+                };
+                let mut map: Vec<[f64; 2]> = stage.matrix.iter().map(row).collect();
+                free(next, &mut map);
+                right.push(map);
+            }
+            // the last level's own map takes over, and the rest of the points what it does not have
+            if let Some(last) = right.last_mut() {
+                let difference = |(r, own): (&[f64; 2], &[f64; 2])| [r[0] - own[0], r[1] - own[1]];
+                beyond = Some(last.iter().zip(&pair.right).map(difference).collect());
+                last.clone_from(&pair.right);
+            }
+        }
+        Centre {
+            lambda: Ok(pair.lambda),
+            stages,
+            right,
+            beyond,
+        }
+    }
+
+    /// The number of levels that differ.
+    pub fn leading(&self) -> usize {
+        self.stages.len() - 1
+    }
+
+    /// The level after so many.
+    pub fn stage(&self, m: usize) -> &Stage {
+        &self.stages[m.min(self.leading())]
+    }
+
+    /// The map of the level after so many.
+    pub fn map(&self, m: usize) -> Option<&[[f64; 2]]> {
+        self.right.get(m.min(self.leading())).map(Vec::as_slice)
+    }
+
+    /// The largest modulus among the eigenvalues of the last matrix beyond the pair in which heights over the
+    /// tangent plane have a part.
     pub fn second_modulus(&self, heights: &[f64]) -> Option<f64> {
-        let block = block(&self.matrix);
+        let block = block(&self.stage(usize::MAX).matrix);
         let size = heights.iter().fold(0.0, |most: f64, z| most.max(z.abs()));
         if size == 0.0 {
             return None;
@@ -162,11 +398,9 @@ impl Centre {
         let mut last = f64::NAN;
         for eigenvalue in block.eigenvalues().ok()?.iter().skip(1) {
             let modulus = eigenvalue.value.0.hypot(eigenvalue.value.1);
-            let in_pair = self.pair.as_ref().is_ok_and(|pair| {
-                pair.lambda
-                    .iter()
-                    .any(|lambda| (modulus - lambda).abs() < EQUAL * lambda)
-            });
+            let in_pair = self
+                .lambda
+                .is_ok_and(|pair| pair.iter().any(|lambda| (modulus - lambda).abs() < EQUAL * lambda));
             if in_pair || modulus == last || modulus < 1e-3 {
                 continue;
             }
@@ -206,12 +440,7 @@ fn limit(matrix: &[Row]) -> Vec<f64> {
     let mut weights = vec![0.0; matrix.len()];
     weights[0] = 1.0;
     for _ in 0..4000 {
-        let mut next = vec![0.0; matrix.len()];
-        for (row, weight) in matrix.iter().zip(&weights) {
-            for &(at, w) in row {
-                next[at as usize] += weight * w;
-            }
-        }
+        let next = times(&weights, matrix);
         let change = next
             .iter()
             .zip(&weights)
@@ -276,15 +505,18 @@ fn pair(matrix: &[Row], local: &Local) -> Result<Result<Pair, Undefined>, Error>
     // the ends of the spokes, or the faces between them, must run round the centre once
     let topology = &local.topology;
     let fan = topology.fan(topology.origin(0));
-    let (mut ends, centre): (Vec<u32>, [f64; 2]) = if local.values.is_some() {
-        let faces: Vec<u32> = fan.spokes.iter().map(|&spoke| topology.face(spoke)).collect();
-        let mean = |k: usize| faces.iter().map(|&face| right[face as usize][k]).sum::<f64>() / faces.len() as f64;
-        let centre = [mean(0), mean(1)];
-        (faces, centre)
-    } else {
-        let heads = fan.spokes.iter().map(|&spoke| topology.head(spoke));
-        let ends = heads.chain(fan.last.map(|last| topology.origin(last))).collect();
-        (ends, right[topology.origin(0) as usize])
+    let (mut ends, centre): (Vec<u32>, [f64; 2]) = match &local.net {
+        Some((net, _)) => {
+            let (ends, weights) = net.around(&fan, topology, topology.origin(0));
+            let mean = |k: usize| weights.iter().map(|&(at, w)| w * right[at as usize][k]).sum::<f64>();
+            let centre = [mean(0), mean(1)];
+            (ends, centre)
+        }
+        None => {
+            let heads = fan.spokes.iter().map(|&spoke| topology.head(spoke));
+            let ends = heads.chain(fan.last.map(|last| topology.origin(last))).collect();
+            (ends, right[topology.origin(0) as usize])
+        }
     };
     if fan.is_closed() {
         ends.push(ends[0]);
@@ -316,171 +548,6 @@ fn pair(matrix: &[Row], local: &Local) -> Result<Result<Pair, Undefined>, Error>
         right,
         left,
     }))
-}
-
-/// The control points of a face beside a centre, level by level.
-#[derive(Debug)]
-pub(crate) struct Ladder {
-    /// The limit of the centre.
-    pub position: Point3<f64>,
-    /// Tangents and normal, each of unit length.
-    pub frame: [Vector3<f64>; 3],
-    /// The tangents a, unless there is no tangent plane.
-    pub tangents: Result<[Vector3<f64>; 2], Undefined>,
-    /// By how much x and y shrink a level.
-    pub lambda: f64,
-    /// The tangents' coordinates in the frame, and how the second shrinks beside the first.
-    plane: [[f64; 2]; 2],
-    ratio: f64,
-    /// T of each level, in the frame.
-    rest: Vec<Vec<[f64; 3]>>,
-    patches: HashMap<(usize, u8), [[f64; 3]; 16]>,
-}
-
-/// Levels beyond this are computed anew from the last one kept.
-const KEPT: usize = 64;
-
-impl Ladder {
-    pub fn new(centre: &Centre, points: &[Point3<f64>]) -> Self {
-        let combined = |weights: &[f64]| -> Vector3<f64> {
-            // of differences from the first point, so that large coordinates cost no digits
-            let first = points[0];
-            weights.iter().zip(points).map(|(w, p)| (p - first) * *w).sum()
-        };
-        let from_first = combined(&centre.limit);
-        let position = points[0] + from_first;
-        let scale = points.iter().map(|p| (p - position).norm()).fold(0.0, f64::max);
-        let tangents = centre.pair.as_ref().map_err(|&why| why).and_then(|pair| {
-            let a = [combined(&pair.left[0]), combined(&pair.left[1])];
-            // rounding of the coordinates themselves: tangents below it are none
-            let least = 1e-13 * scale.max(f64::MIN_POSITIVE) * scale;
-            if a[0].cross(&a[1]).norm() > least {
-                Ok(a)
-            } else {
-                Err(Undefined::Degenerate)
-            }
-        });
-        let mut frame = [Vector3::x(), Vector3::y(), Vector3::z()];
-        let (mut lambda, mut ratio, mut plane) = (1.0, 1.0, [[0.0; 2]; 2]);
-        if let (Ok(a), Ok(pair)) = (&tangents, &centre.pair) {
-            let normal = a[0].cross(&a[1]).normalize();
-            let first = a[0].normalize();
-            frame = [first, normal.cross(&first), normal];
-            (lambda, ratio) = (pair.lambda[0], pair.lambda[1] / pair.lambda[0]);
-            plane = [0, 1].map(|r| [0, 1].map(|k| a[r].dot(&frame[k])));
-        }
-        let mut first: Vec<[f64; 3]> = Vec::with_capacity(points.len());
-        for (index, point) in points.iter().enumerate() {
-            let mut d = (point - points[0]) - from_first;
-            if let (Ok(a), Ok(pair)) = (&tangents, &centre.pair) {
-                d -= a[0] * pair.right[index][0] + a[1] * pair.right[index][1];
-            }
-            first.push([0, 1, 2].map(|k| d.dot(&frame[k])));
-        }
-        let mut ladder = Ladder {
-            position,
-            frame,
-            tangents,
-            lambda,
-            plane,
-            ratio,
-            rest: Vec::new(),
-            patches: HashMap::new(),
-        };
-        ladder.project(centre, &mut first);
-        ladder.rest.push(first);
-        ladder
-    }
-
-    /// Takes limit and tangents out of the rest.
-    fn project(&self, centre: &Centre, rest: &mut [[f64; 3]]) {
-        let part = |weights: &[f64], rest: &[[f64; 3]]| {
-            let mut sum = [0.0; 3];
-            for (w, t) in weights.iter().zip(rest) {
-                (0..3).for_each(|k| sum[k] += w * t[k]);
-            }
-            sum
-        };
-        let limit = part(&centre.limit, rest);
-        rest.iter_mut().for_each(|t| (0..3).for_each(|k| t[k] -= limit[k]));
-        if let (Ok(_), Ok(pair)) = (&self.tangents, &centre.pair) {
-            let parts = [part(&pair.left[0], rest), part(&pair.left[1], rest)];
-            for (t, r) in rest.iter_mut().zip(&pair.right) {
-                (0..3).for_each(|k| t[k] -= r[0] * parts[0][k] + r[1] * parts[1][k]);
-            }
-        }
-    }
-
-    fn advanced(&self, centre: &Centre, rest: &[[f64; 3]]) -> Vec<[f64; 3]> {
-        let row = |row: &Row| {
-            let mut sum = [0.0; 3];
-            for &(at, w) in row {
-                (0..3).for_each(|k| sum[k] += w * rest[at as usize][k]);
-            }
-            sum
-        };
-        let mut next: Vec<[f64; 3]> = centre.matrix.iter().map(row).collect();
-        self.project(centre, &mut next);
-        next
-    }
-
-    /// The points of a level in the frame, x and y over `lambda^m`, z over `lambda^2m`.
-    pub fn points(&mut self, centre: &Centre, m: usize) -> Vec<[f64; 3]> {
-        while self.rest.len() <= m.min(KEPT) {
-            let next = self.advanced(centre, &self.rest[self.rest.len() - 1]);
-            self.rest.push(next);
-        }
-        let mut rest = self.rest[m.min(KEPT)].clone();
-        for _ in KEPT..m {
-            rest = self.advanced(centre, &rest);
-        }
-        let shrunk = self.lambda.powi(m as i32);
-        let slower = self.ratio.powi(m as i32);
-        for (index, t) in rest.iter_mut().enumerate() {
-            *t = [t[0] / shrunk, t[1] / shrunk, t[2] / shrunk / shrunk];
-            if let (Ok(_), Ok(pair)) = (&self.tangents, &centre.pair) {
-                let r = [pair.right[index][0], pair.right[index][1] * slower];
-                (0..2).for_each(|k| t[k] += r[0] * self.plane[0][k] + r[1] * self.plane[1][k]);
-            }
-        }
-        rest
-    }
-
-    /// The jet at `(s, t)` of the quarter at a corner (1 to 3) of the face of level m, in the frame, and the
-    /// factor by which parameters of the jet are finer than those of that face.
-    pub fn jet(&mut self, centre: &Centre, m: usize, corner: usize, mut s: f64, mut t: f64) -> (Jet3, f64) {
-        let mut annulus = &centre.annulus[corner - 1];
-        let (mut path, mut finer) = (corner as u8, 2.0);
-        let rows = loop {
-            match annulus {
-                Annulus::Patch(rows) => break rows,
-                Annulus::Split(quarters) => {
-                    let (quarter, fine_s, fine_t) = quartered(s, t);
-                    (s, t) = (fine_s, fine_t);
-                    path = path * 4 + quarter as u8;
-                    finer *= 2.0;
-                    annulus = &quarters[quarter];
-                }
-            }
-        };
-        if m <= KEPT
-            && let Some(points) = self.patches.get(&(m, path))
-        {
-            return (jet(points, s, t), finer);
-        }
-        let points = self.points(centre, m);
-        let control: [[f64; 3]; 16] = std::array::from_fn(|index| {
-            let mut sum = [0.0; 3];
-            for &(at, w) in &rows[index] {
-                (0..3).for_each(|k| sum[k] += w * points[at as usize][k]);
-            }
-            sum
-        });
-        if m <= KEPT {
-            self.patches.insert((m, path), control);
-        }
-        (jet(&control, s, t), finer)
-    }
 }
 
 /// The quarter of a face in which parameters lie, by its corner, and the parameters there.

@@ -1,9 +1,10 @@
 //! Evaluation of one face: its refined parts, kept while points are asked for.
 
 pub use super::centre::Undefined;
-use super::centre::{Centre, Ladder, missing, quartered};
-use super::local::{Local, Reach, Source};
-use super::patch::{Jet3, control, jet};
+use super::centre::{Centre, Context, Stage, missing, quartered};
+use super::ladder::Ladder;
+use super::local::{Local, Source};
+use super::patch::{Jet3, Patch};
 use super::{Place, Surface};
 use crate::Error;
 use nalgebra::{Point3, Vector3};
@@ -109,7 +110,7 @@ pub(crate) fn curvature(first: &[Vector3<f64>; 2], second: &[Vector3<f64>; 3]) -
 
 /// A part of the face.
 enum Node {
-    Regular(Box<[[f64; 3]; 16]>),
+    Regular(Patch),
     /// A centre at a corner.
     Centre(u32, Arc<Centre>, Box<Ladder>),
     Inner(Box<Local>, Box<crate::refine::Step>, [Option<Box<Node>>; 4]),
@@ -150,15 +151,17 @@ impl<'s, 'r> Evaluator<'s, 'r> {
                     mesh: &surface.base,
                     topology: &surface.topology,
                     ends: surface.ends,
-                    values: surface.values.as_deref(),
+                    soft: surface.soft,
+                    net: surface.net.as_ref(),
                 };
                 let own = |id: u32| surface.rules.vertices().any(|v| v == id).then_some(id);
                 let none = surface.rules.vertices().next().is_none();
-                let local = source.part(half, reach(surface), |id| if none { None } else { own(id) });
-                entry.insert(node(surface, local, DEEPEST)?)
+                let rings = surface.kernel.reach();
+                let local = source.part(half, rings, |id| if none { None } else { own(id) });
+                entry.insert(node(surface, local, surface.lift)?)
             }
         };
-        descend(surface, node, s, t, scale, DEEPEST)
+        descend(surface, node, s, t, scale, surface.lift)
     }
 
     /// The half-edge of the base that a place counts from, the parameters there, and how much finer they are.
@@ -214,59 +217,32 @@ fn half_of(control: &crate::Mesh, half: u32, further: u32) -> u32 {
     start + (half - start + further) % 4
 }
 
-fn reach(surface: &Surface<'_>) -> Reach {
-    if surface.values.is_none() && surface.rules.reaches_beyond_vertex() {
-        Reach::Two
-    } else {
-        Reach::One
-    }
-}
-
-fn node(surface: &Surface<'_>, local: Local, deepest: usize) -> Result<Node, Error> {
-    let (rules, reach) = (surface.rules, reach(surface));
-    let irregular = local.irregular(rules);
+/// What a part of a level is.
+fn node(surface: &Surface<'_>, local: Local, level: usize) -> Result<Node, Error> {
+    let (rules, kernel) = (surface.rules, &surface.kernel);
     if !local.is_soft() {
-        let near = reach == Reach::Two && local.is_near_special(rules);
+        let irregular = local.irregular(rules, kernel.rings);
+        let near = kernel.beyond && local.is_near_special(rules);
         if irregular.is_empty() && !near {
-            let points = local.points();
-            let combined = |row: &crate::refine::Row| {
-                let mut sum = [0.0; 3];
-                for &(at, w) in row {
-                    (0..3).for_each(|k| sum[k] += w * points[at as usize][k]);
-                }
-                sum
-            };
-            let control = control(&local);
-            return Ok(Node::Regular(Box::new(std::array::from_fn(|i| combined(&control[i])))));
+            let points: Vec<[f64; 3]> = local.points().iter().map(|p| [p.x, p.y, p.z]).collect();
+            return Ok(Node::Regular(Patch::new(&local, &points, kernel, level)?));
         }
-        if let &[corner] = irregular.as_slice() {
-            let turned = local.turned(corner, reach);
-            let key = turned.key();
-            let known = surface
-                .centres
-                .lock()
-                .ok()
-                .and_then(|centres| centres.get(&key).cloned());
-            if let Some(centre) = known {
-                let ladder = Box::new(Ladder::new(&centre, turned.points()));
-                return Ok(Node::Centre(corner, centre, ladder));
-            }
-            let refined = turned.refined(rules)?;
-            let child = turned.child(&refined, 0, reach).ok_or_else(missing)?;
-            if child.key() == key {
-                let centre = Arc::new(Centre::new(&turned, &refined, &child, rules, reach)?);
-                if let Ok(mut centres) = surface.centres.lock() {
-                    centres.insert(key, Arc::clone(&centre));
+        if let &[half] = irregular.as_slice() {
+            let vertex = local.topology.origin(half);
+            let corner = (0..4).find(|&corner| local.topology.origin(corner) == vertex);
+            if let Some(corner) = corner {
+                let turned = local.turned(corner, kernel.reach());
+                if let Some(centre) = centre(surface, &turned, level)? {
+                    let ladder = Box::new(Ladder::new(&centre, turned.points()));
+                    return Ok(Node::Centre(corner, centre, ladder));
                 }
-                let ladder = Box::new(Ladder::new(&centre, turned.points()));
-                return Ok(Node::Centre(corner, centre, ladder));
             }
         }
     }
-    if deepest == 0 {
+    if level > surface.lift + DEEPEST {
         return Err(missing());
     }
-    let refined = local.refined(rules)?;
+    let refined = local.refined(rules, kernel, level)?;
     Ok(Node::Inner(
         Box::new(local),
         Box::new(refined),
@@ -274,22 +250,71 @@ fn node(surface: &Surface<'_>, local: Local, deepest: usize) -> Result<Node, Err
     ))
 }
 
-fn descend(surface: &Surface<'_>, at: &mut Node, s: f64, t: f64, scale: f64, deepest: usize) -> Result<Sample, Error> {
+/// The centre at the first corner of a part, if refinement reproduces the part.
+fn centre(surface: &Surface<'_>, local: &Local, level: usize) -> Result<Option<Arc<Centre>>, Error> {
+    let (rules, kernel) = (surface.rules, &surface.kernel);
+    let level = level.min(kernel.stationary);
+    let key = local.key();
+    let known = surface.known.lock().ok();
+    if let Some(centre) = known.and_then(|known| known.centres.get(&(key.clone(), level)).cloned()) {
+        return Ok(Some(centre));
+    }
+    let mut stages: Vec<Arc<Stage>> = Vec::new();
+    let mut pair = None;
+    // from the level that all others equal back to this one
+    for at in (level..=kernel.stationary).rev() {
+        let known = surface.known.lock().ok();
+        let found = known.and_then(|known| {
+            pair = pair.take().or_else(|| known.pairs.get(&key).cloned());
+            known.stages.get(&(key.clone(), at)).cloned()
+        });
+        let stage = match (found, &pair) {
+            (Some(stage), Some(_)) => stage,
+            _ => {
+                let refined = local.refined(rules, kernel, at)?;
+                let child = local.child(&refined, 0, kernel.reach()).ok_or_else(missing)?;
+                if child.key() != key {
+                    return Ok(None);
+                }
+                let next = stages.last().map(Arc::as_ref).zip(pair.as_deref());
+                let (stage, own) = Stage::new(local, refined, &child, kernel, at, next)?;
+                let stage = Arc::new(stage);
+                let own = own.map(Arc::new);
+                if let Ok(mut known) = surface.known.lock() {
+                    known.stages.insert((key.clone(), at), Arc::clone(&stage));
+                    known.pairs.extend(own.clone().map(|own| (key.clone(), own)));
+                }
+                pair = pair.or(own);
+                stage
+            }
+        };
+        stages.push(stage);
+    }
+    stages.reverse();
+    let Some(pair) = pair else { return Ok(None) };
+    let centre = Arc::new(Centre::new(stages, &pair));
+    if let Ok(mut known) = surface.known.lock() {
+        known.centres.insert((key, level), Arc::clone(&centre));
+    }
+    Ok(Some(centre))
+}
+
+fn descend(surface: &Surface<'_>, at: &mut Node, s: f64, t: f64, scale: f64, level: usize) -> Result<Sample, Error> {
     match at {
-        Node::Regular(points) => Ok(regular(&jet(points, s, t), scale)),
-        Node::Centre(corner, centre, ladder) => Ok(beside(*corner, centre, ladder, s, t, scale)),
+        Node::Regular(patch) => Ok(regular(&patch.jet(s, t), scale)),
+        Node::Centre(corner, centre, ladder) => beside(surface.context(), *corner, centre, ladder, s, t, scale),
         Node::Inner(local, refined, children) => {
             let (quarter, s, t) = quartered(s, t);
             let child = match &mut children[quarter] {
                 Some(child) => child,
                 empty => {
                     let part = local
-                        .child(refined, quarter as u32, reach(surface))
+                        .child(refined, quarter as u32, surface.kernel.reach())
                         .ok_or_else(missing)?;
-                    empty.insert(Box::new(node(surface, part, deepest - 1)?))
+                    empty.insert(Box::new(node(surface, part, level + 1)?))
                 }
             };
-            descend(surface, child, s, t, 2.0 * scale, deepest - 1)
+            descend(surface, child, s, t, 2.0 * scale, level + 1)
         }
     }
 }
@@ -341,10 +366,18 @@ fn turned(corner: u32, s: f64, t: f64) -> (f64, f64) {
     }
 }
 
-fn beside(corner: u32, centre: &Centre, ladder: &mut Ladder, s: f64, t: f64, scale: f64) -> Sample {
+fn beside(
+    context: Context<'_>,
+    corner: u32,
+    centre: &Centre,
+    ladder: &mut Ladder,
+    s: f64,
+    t: f64,
+    scale: f64,
+) -> Result<Sample, Error> {
     let (mut s, mut t) = turned(corner, s, t);
     if s == 0.0 && t == 0.0 {
-        return at_centre(centre, ladder);
+        return at_centre(context, centre, ladder);
     }
     let mut m = 0;
     while s < 0.5 && t < 0.5 {
@@ -352,7 +385,7 @@ fn beside(corner: u32, centre: &Centre, ladder: &mut Ladder, s: f64, t: f64, sca
         m += 1;
     }
     let (quarter, s, t) = quartered(s, t);
-    let (jet, finer) = ladder.jet(centre, m, quarter, s, t);
+    let (jet, finer) = ladder.jet(context, centre, m, quarter, s, t)?;
     let curved = scaled_curvature(&jet, ladder, m);
     let shrunk = ladder.lambda.powi(m as i32);
     let real = |x: &[f64; 3]| -> Vector3<f64> {
@@ -369,7 +402,7 @@ fn beside(corner: u32, centre: &Centre, ladder: &mut Ladder, s: f64, t: f64, sca
         2 => ([-xs, -xt], [xss, xst, xtt]),
         _ => ([xt, -xs], [xtt, -xst, xss]),
     };
-    smooth(ladder.position + real(&jet[0]), first, second, curved)
+    Ok(smooth(ladder.position + real(&jet[0]), first, second, curved))
 }
 
 /// The curvature of a jet in the frame of a ladder: of the surface `(x, y, lambda^m z)`, scaled back.
@@ -393,10 +426,10 @@ pub(super) fn scaled_curvature(jet: &Jet3, ladder: &Ladder, m: usize) -> Option<
 /// there, and nothing has underflown.
 const DEEP: usize = 40;
 
-fn at_centre(centre: &Centre, ladder: &mut Ladder) -> Sample {
-    let kind = kind_at_centre(centre, ladder);
+fn at_centre(context: Context<'_>, centre: &Centre, ladder: &mut Ladder) -> Result<Sample, Error> {
+    let kind = kind_at_centre(context, centre, ladder)?;
     let flat = kind == Kind::Flat;
-    Sample {
+    Ok(Sample {
         position: ladder.position,
         first: None,
         second: None,
@@ -405,36 +438,38 @@ fn at_centre(centre: &Centre, ladder: &mut Ladder) -> Sample {
         mean: flat.then_some(0.0),
         principal: flat.then_some([0.0; 2]),
         kind,
-    }
+    })
 }
 
-fn kind_at_centre(centre: &Centre, ladder: &mut Ladder) -> Kind {
+fn kind_at_centre(context: Context<'_>, centre: &Centre, ladder: &mut Ladder) -> Result<Kind, Error> {
     if let Err(why) = ladder.tangents {
-        return Kind::Undefined(why);
+        return Ok(Kind::Undefined(why));
     }
-    let heights: Vec<f64> = ladder.points(centre, 0).iter().map(|p| p[2]).collect();
+    let heights: Vec<f64> = ladder.points(centre, centre.leading()).iter().map(|p| p[2]).collect();
     let Some(mu) = centre.second_modulus(&heights) else {
-        return Kind::Flat;
+        return Ok(Kind::Flat);
     };
     let square = ladder.lambda * ladder.lambda;
     if mu < square * (1.0 - 1e-7) {
-        return Kind::Flat;
+        return Ok(Kind::Flat);
     }
+    let deep = DEEP + centre.leading();
     let (mut gauss, mut mean) = ([f64::INFINITY, f64::NEG_INFINITY], [f64::INFINITY, f64::NEG_INFINITY]);
     for quarter in 1..4 {
         for (i, j) in (0..5).flat_map(|i| (0..5).map(move |j| (i, j))) {
-            let (jet, _) = ladder.jet(centre, DEEP, quarter, f64::from(i) / 4.0, f64::from(j) / 4.0);
-            if let Some(curved) = scaled_curvature(&jet, ladder, DEEP) {
+            let (s, t) = (f64::from(i) / 4.0, f64::from(j) / 4.0);
+            let (jet, _) = ladder.jet(context, centre, deep, quarter, s, t)?;
+            if let Some(curved) = scaled_curvature(&jet, ladder, deep) {
                 gauss = [gauss[0].min(curved.gauss), gauss[1].max(curved.gauss)];
                 mean = [mean[0].min(curved.mean), mean[1].max(curved.mean)];
             }
         }
     }
     if mu > square * (1.0 + 1e-7) {
-        return Kind::Unbounded {
+        return Ok(Kind::Unbounded {
             exponent: 2.0 * mu.ln() / ladder.lambda.ln() - 4.0,
             signs: gauss.map(f64::signum),
-        };
+        });
     }
-    Kind::Bounded { gauss, mean }
+    Ok(Kind::Bounded { gauss, mean })
 }

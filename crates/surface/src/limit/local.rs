@@ -1,9 +1,11 @@
 //! The faces around one face, numbered by how they lie: the same structure has the same numbers.
 //!
 //! The face is face 0 with points 0 to 3. Then follow the faces around its corners, counter-clockwise and
-//! back, up to sharp edges once no sharpness is left that ends; the edge of a dart is no end. Where special
-//! rules reach farther than the vertex itself, the faces around these follow.
+//! back, up to sharp edges once no sharpness is left that ends; the edge of a dart is no end. Then, ring by
+//! ring, those around these, as far as the pieces of the surface read ([`Kernel::reach`]).
 
+use super::dual::{self, DualNet};
+use super::kernel::Kernel;
 use crate::active::{Active, Ends, Kind, Masks};
 use crate::features::{INFINITE, edge};
 use crate::refine::{Step, step};
@@ -26,23 +28,12 @@ pub(crate) struct Key {
 pub(crate) struct Local {
     pub mesh: Mesh,
     pub topology: Topology,
-    /// The point of the mesh before, for each point.
+    /// The vertex of the mesh before, for each vertex.
     pub ids: Vec<u32>,
-    /// The face of the mesh before, for each face.
-    pub faces: Vec<u32>,
-    /// Of dual schemes the points, which sit on faces.
-    pub values: Option<Vec<Point3<f64>>>,
+    /// Of dual schemes the control points, and their numbers in the net before.
+    pub net: Option<(DualNet, Vec<u32>)>,
     /// The vertex of the control mesh with a definition of its own, for each point that is one.
     pub named: HashMap<u32, u32>,
-}
-
-/// How much of the neighbourhood is read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Reach {
-    /// The faces that touch the face.
-    One,
-    /// The faces that touch these.
-    Two,
 }
 
 /// A mesh of which parts are taken.
@@ -50,8 +41,10 @@ pub(crate) struct Source<'a> {
     pub mesh: &'a Mesh,
     pub topology: &'a Topology,
     pub ends: Ends,
-    /// Of dual schemes the point of each face.
-    pub values: Option<&'a [Point3<f64>]>,
+    /// Whether anything has a sharpness that ends.
+    pub soft: bool,
+    /// Of dual schemes the control points.
+    pub net: Option<&'a DualNet>,
 }
 
 impl Source<'_> {
@@ -119,44 +112,11 @@ impl Source<'_> {
     }
 
     /// The part around the face of `start`, counted from there.
-    pub fn part(&self, start: u32, reach: Reach, named: impl Fn(u32) -> Option<u32>) -> Local {
+    pub fn part(&self, start: u32, rings: usize, named: impl Fn(u32) -> Option<u32>) -> Local {
         let topology = self.topology;
-        let mut corners = vec![start];
-        for _ in 0..3 {
-            corners.push(topology.next(corners[corners.len() - 1]));
-        }
-        let ending = |half: u32| {
-            let s = self.sharpness(half);
-            s > 0.0 && s < INFINITE
-        };
-        let soft = corners.iter().any(|&corner| {
-            let vertex = topology.origin(corner);
-            let own = self.own(vertex);
-            (own > 0.0 && own < INFINITE) || self.spokes(vertex).into_iter().any(ending)
-        });
-        let cut = !soft;
-        // faces by the half-edge from which they are counted
-        let mut faces = vec![start];
-        let mut seen: HashSet<u32> = HashSet::from([topology.face(start)]);
-        let collect = |from: u32, faces: &mut Vec<u32>, seen: &mut HashSet<u32>| {
-            for half in self.around(from, cut) {
-                if seen.insert(topology.face(half)) {
-                    faces.push(half);
-                }
-            }
-        };
-        for &corner in &corners {
-            collect(corner, &mut faces, &mut seen);
-        }
-        if reach == Reach::Two {
-            for face in faces.clone() {
-                let mut half = face;
-                for _ in 0..4 {
-                    collect(half, &mut faces, &mut seen);
-                    half = topology.next(half);
-                }
-            }
-        }
+        // sharpness that ends may act across an edge that stays sharp, as a third one at its end
+        let cut = !self.soft || !self.is_soft(start, rings);
+        let faces = self.faces(start, rings, cut);
         let mut numbers: HashMap<u32, u32> = HashMap::new();
         let mut ids = Vec::new();
         let mut list = Vec::with_capacity(4 * faces.len());
@@ -198,18 +158,63 @@ impl Source<'_> {
             .enumerate()
             .filter_map(|(number, &id)| Some((number as u32, named(id)?)))
             .collect();
-        let faces: Vec<u32> = faces.into_iter().map(|half| topology.face(half)).collect();
-        let values = self
-            .values
-            .map(|values| faces.iter().map(|&face| values[face as usize]).collect());
+        let fine = Topology::unchecked(&mesh);
+        let net = self.net.map(|net| {
+            let faces = faces.iter().map(|&half| topology.face(half));
+            let rims = (0..fine.edge_count() as u32).filter_map(|number| {
+                let pair = fine.edge_points(number);
+                let [a, b] = pair.map(|end| ids[end as usize]);
+                Some((pair, *net.rims.get(&edge(a, b))?))
+            });
+            let corners = (0..)
+                .zip(&ids)
+                .filter_map(|(number, id)| Some((number, *net.corners.get(id)?)));
+            net.part(faces, rims, corners)
+        });
         Local {
-            topology: Topology::unchecked(&mesh),
+            topology: fine,
             mesh,
             ids,
-            faces,
-            values,
+            net,
             named,
         }
+    }
+
+    /// The faces of a part, each by the half-edge from which it is counted.
+    fn faces(&self, start: u32, rings: usize, cut: bool) -> Vec<u32> {
+        let topology = self.topology;
+        let mut faces = vec![start];
+        let mut seen: HashSet<u32> = HashSet::from([topology.face(start)]);
+        let mut from = 0;
+        for _ in 0..rings {
+            let end = faces.len();
+            for index in from..end {
+                let mut half = faces[index];
+                for _ in 0..4 {
+                    for around in self.around(half, cut) {
+                        if seen.insert(topology.face(around)) {
+                            faces.push(around);
+                        }
+                    }
+                    half = topology.next(half);
+                }
+            }
+            from = end;
+        }
+        faces
+    }
+
+    /// Whether a part has sharpness that ends.
+    fn is_soft(&self, start: u32, rings: usize) -> bool {
+        let ending = |s: f64| s > 0.0 && s < INFINITE;
+        self.faces(start, rings, false).into_iter().any(|face| {
+            let mut half = face;
+            (0..4).any(|_| {
+                half = self.topology.next(half);
+                let vertex = self.topology.origin(half);
+                ending(self.own(vertex)) || self.spokes(vertex).into_iter().any(|half| ending(self.sharpness(half)))
+            })
+        })
     }
 }
 
@@ -231,57 +236,57 @@ impl Local {
             mesh: &self.mesh,
             topology: &self.topology,
             ends: Ends::Open,
-            values: self.values.as_deref(),
+            soft: self.is_soft(),
+            net: self.net.as_ref().map(|(net, _)| net),
         }
     }
 
     /// The control points.
     pub fn points(&self) -> &[Point3<f64>] {
-        self.values.as_deref().unwrap_or(self.mesh.points())
+        self.net.as_ref().map_or(self.mesh.points(), |(net, _)| &net.points)
     }
 
     /// The numbers that the control points have in the refined part before.
     pub fn unknowns(&self) -> &[u32] {
-        if self.values.is_some() { &self.faces } else { &self.ids }
+        self.net.as_ref().map_or(&self.ids, |(_, ids)| ids)
     }
 
     /// The same part counted from another corner of its face.
-    pub fn turned(&self, corner: u32, reach: Reach) -> Local {
-        let mut turned = self.source().part(corner, reach, |id| self.named.get(&id).copied());
+    pub fn turned(&self, corner: u32, rings: usize) -> Local {
+        let mut turned = self.source().part(corner, rings, |id| self.named.get(&id).copied());
         turned.ids = turned.ids.iter().map(|&id| self.ids[id as usize]).collect();
+        if let (Some((_, ids)), Some((_, before))) = (&mut turned.net, &self.net) {
+            ids.iter_mut().for_each(|id| *id = before[*id as usize]);
+        }
         turned
     }
 
-    /// The part, refined once.
-    pub fn refined(&self, rules: &Rules) -> Result<Step, Error> {
-        if self.values.is_some() {
-            return super::dual::step(self, rules);
+    /// The part, refined once, as the given level.
+    pub fn refined(&self, rules: &Rules, kernel: &Kernel, level: usize) -> Result<Step, Error> {
+        if self.net.is_some() {
+            return dual::step(self, rules, kernel, level);
         }
         if self.named.is_empty() {
-            return step(&self.mesh, &self.topology, rules, 0, Ends::Open);
+            return step(&self.mesh, &self.topology, rules, level, Ends::Open);
         }
-        step(
-            &self.mesh,
-            &self.topology,
-            &rules.renumbered(&self.named),
-            0,
-            Ends::Open,
-        )
+        let rules = rules.renumbered(&self.named);
+        step(&self.mesh, &self.topology, &rules, level, Ends::Open)
     }
 
     /// The quarter of the face at one of its corners, counted so that parameters run as on the face.
-    pub fn child(&self, refined: &Step, corner: u32, reach: Reach) -> Option<Local> {
+    pub fn child(&self, refined: &Step, corner: u32, rings: usize) -> Option<Local> {
         let face = refined.halves.iter().position(|&half| half == corner)? as u32;
         let topology = Topology::unchecked(&refined.mesh);
         let source = Source {
             mesh: &refined.mesh,
             topology: &topology,
             ends: Ends::Open,
-            values: refined.values.as_deref(),
+            soft: refined.mesh.features.largest_finite_sharpness() > 0.0,
+            net: refined.net.as_ref(),
         };
         let start = 4 * face + (4 - corner) % 4;
         // old points keep their numbers
-        Some(source.part(start, reach, |id| self.named.get(&id).copied()))
+        Some(source.part(start, rings, |id| self.named.get(&id).copied()))
     }
 
     /// Whether sharpness is left that ends.
@@ -318,11 +323,12 @@ impl Local {
         (count, false)
     }
 
-    /// The corners of the face that are not regular.
-    pub fn irregular(&self, rules: &Rules) -> Vec<u32> {
+    /// The irregular vertices inside the control points of the face's piece, each by a half-edge of the part
+    /// that leaves it, first those at corners of the face.
+    pub fn irregular(&self, rules: &Rules, rings: usize) -> Vec<u32> {
         let active = Active::new(&self.topology, &self.mesh.features, Ends::Open, None);
         let source = self.source();
-        let regular = |&corner: &u32| {
+        let regular = |corner: u32| {
             let vertex = self.topology.origin(corner);
             let (faces, closed) = self.sector(corner);
             match active.masks(vertex, 0) {
@@ -334,7 +340,20 @@ impl Local {
                 Masks::Blend(..) => false,
             }
         };
-        (0..4).filter(|corner| !regular(corner)).collect()
+        let mut found: Vec<u32> = Vec::new();
+        let mut seen: HashSet<u32> = HashSet::new();
+        for face in source.faces(0, rings - 1, true) {
+            let mut half = face;
+            for _ in 0..4 {
+                let vertex = self.topology.origin(half);
+                // a vertex on a crease may be seen from both sides
+                if !regular(half) && seen.insert(vertex) {
+                    found.push(half);
+                }
+                half = self.topology.next(half);
+            }
+        }
+        found
     }
 
     fn is_special(&self, rules: &Rules, vertex: u32, valence: usize) -> bool {

@@ -2,29 +2,35 @@
 //!
 //! **Isolation.** The faces around a face are refined, not the mesh, until the face's support is regular, or
 //! has one irregular centre at a corner of the face and refinement reproduces it (`local.rs`). **Regular**
-//! patches are bicubic B-splines, continued by reflection at boundaries and creases (`patch.rs`). **Beside a
-//! centre** at depth m the control points are never multiplied out and differenced: they are kept as
-//! `1 p + lambda^m R a + T`, p the limit of the centre, a its tangents, T the rest, which is projected free
-//! of both at every level (`centre.rs`). In the frame of the tangent plane, with x and y divided by
-//! `lambda^m` and z by `lambda^2m`, nothing cancels and nothing underflows down to parameters of 1e-18 and
-//! below.
+//! pieces are tensor products of the scheme's order and of the level's tension (`kernel.rs`, `patch.rs`),
+//! continued by reflection at boundaries and creases (`net.rs`). **Beside a centre** at depth m the control
+//! points are never multiplied out and differenced: they are kept as `1 p + lambda^m R a + T`, p the limit of
+//! the centre, a its tangents, T the rest, which is projected free of both at every level (`centre.rs`,
+//! `ladder.rs`). In the frame of the tangent plane, with x and y divided by `lambda^m` and z by `lambda^2m`,
+//! nothing cancels and nothing underflows down to parameters of 1e-18 and below.
 
 mod centre;
 mod dual;
 mod evaluate;
+mod kernel;
+mod ladder;
 mod local;
+mod net;
 mod patch;
 mod vertices;
 
+pub(crate) use dual::DualNet;
 pub use evaluate::{Evaluator, Kind, Sample, Undefined};
 pub use vertices::{Rule, VertexFan};
 
 use crate::active::Ends;
+use crate::dual::CellNet;
 use crate::refine::step;
 use crate::refiner::{Refiner, RulesOn};
-use crate::rules::{Method, Rules};
+use crate::rules::Rules;
 use crate::{Error, Mesh, Topology};
-use centre::Centre;
+use centre::{Centre, Context, Pair, Stage};
+use kernel::Kernel;
 use nalgebra::Point3;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex};
@@ -52,102 +58,90 @@ pub struct Place {
 #[derive(Debug)]
 pub struct Surface<'a> {
     rules: &'a Rules,
+    kernel: Kernel,
     ends: Ends,
     control: Mesh,
     /// The mesh on which evaluation starts: quads whose special vertices lie apart.
     base: Mesh,
     topology: Topology,
-    /// Of dual schemes the points of the base, one for each face.
-    values: Option<Vec<Point3<f64>>>,
+    /// Whether the base has sharpness that ends.
+    soft: bool,
+    /// Of dual schemes the control points on the base.
+    net: Option<DualNet>,
     /// How many levels the base is finer than the control mesh.
     lift: usize,
-    /// What is known of irregular centres, by the structure around them.
-    centres: Mutex<HashMap<local::Key, Arc<Centre>>>,
+    known: Mutex<Known>,
+}
+
+/// What is known of irregular centres, by the structure around them and the level.
+#[derive(Debug, Default)]
+struct Known {
+    centres: HashMap<(local::Key, usize), Arc<Centre>>,
+    stages: HashMap<(local::Key, usize), Arc<Stage>>,
+    pairs: HashMap<local::Key, Arc<Result<Pair, Undefined>>>,
 }
 
 impl<'a> Surface<'a> {
     /// The surface of a control mesh.
     ///
     /// # Errors
-    /// [`Error::Defects`] for what is no surface; [`Error::NoRule`] for schemes other than bicubic ones of
-    /// levels that are alike.
+    /// [`Error::Defects`] for what is no surface; [`Error::NoRule`] for schemes whose regular surfaces are
+    /// neither bicubic in one pass nor those of the tension scheme, and for creases that act in some of the
+    /// smoothing steps only.
     pub fn new(mesh: &Mesh, rules: &'a Rules) -> Result<Self, Error> {
         if mesh.face_count() == 0 {
             return Err(Error::Empty);
         }
-        Topology::new(mesh)?;
-        match rules.method()? {
-            Method::Bicubic => {}
-            Method::Even { order: 4, u0: 1.0 } => {}
-            Method::Odd { u0: 1.0 } if rules.inner(None, 4)?.limit().passes().len() == 1 => {
-                return Surface::dual(mesh, rules);
-            }
-            _ => {
-                return Err(Error::NoRule {
-                    what: format!("no exact limits of {}", rules.definition().name()),
-                    elements: "any face".to_owned(),
-                    accepted: "are catmull-clark, the lambda-scheme, doo-sabin, orders 3 and 4 at u0 = 1, and bicubic scheme files"
-                        .to_owned(),
-                });
-            }
-        }
+        let topology = Topology::new(mesh)?;
+        let kernel = Kernel::new(rules)?;
         let refiner = Refiner::new(rules);
         let ends = refiner.ends(mesh);
-        let (mut base, mut lift) = (mesh.clone(), 0);
-        loop {
-            let topology = Topology::unchecked(&base);
-            let on_base = refiner.rules_on(&base, &topology)?;
-            let polygons = !base.is_quads();
-            if matches!(on_base, RulesOn::Own(_)) && !polygons {
-                return Ok(Surface {
-                    rules,
-                    ends,
-                    control: mesh.clone(),
-                    base,
-                    topology,
-                    values: None,
-                    lift,
-                    centres: Mutex::default(),
-                });
-            }
-            if ends == Ends::Open && !topology.boundary_loops().is_empty() {
-                return Err(Error::NoRule {
-                    what: "a shrinking boundary under limits".to_owned(),
-                    elements: "the boundary".to_owned(),
-                    accepted: "are boundary edge and corner".to_owned(),
-                });
-            }
-            base = step(&base, &topology, on_base.get(), lift, ends)?.mesh;
-            lift += 1;
-        }
-    }
-
-    /// The surface of corner cutting: the base are the quarters of faces, each with the point that the first
-    /// level gives its corner.
-    fn dual(mesh: &Mesh, rules: &'a Rules) -> Result<Self, Error> {
-        let control = Topology::unchecked(mesh);
-        if !control.boundary_loops().is_empty() || !mesh.features.is_empty() {
+        if ends == Ends::Open && !topology.boundary_loops().is_empty() {
             return Err(Error::NoRule {
-                what: format!(
-                    "no exact limits of {} beside boundaries and creases",
-                    rules.definition().name()
-                ),
-                elements: "an open or creased mesh".to_owned(),
-                accepted: "are closed meshes without marks".to_owned(),
+                what: "a shrinking boundary under limits".to_owned(),
+                elements: "the boundary".to_owned(),
+                accepted: "are boundary edge and corner".to_owned(),
             });
         }
-        let base = crate::refine::quads(mesh, &control);
-        let topology = Topology::unchecked(&base);
-        Ok(Surface {
+        full_steps(mesh, rules, &kernel)?;
+        let mut surface = Surface {
             rules,
-            ends: Ends::Open,
+            kernel,
+            ends,
             control: mesh.clone(),
-            base,
+            base: mesh.clone(),
             topology,
-            values: Some(crate::dual_block::first_points(mesh, &control, rules)?),
-            lift: 1,
-            centres: Mutex::default(),
-        })
+            soft: false,
+            net: None,
+            lift: 0,
+            known: Mutex::default(),
+        };
+        if surface.kernel.dual {
+            // the quarters of faces, each with the point that the first level gives its corner
+            surface.net = Some(CellNet::new(mesh.clone(), refiner.boundary_of(mesh)).first_on_quads(rules)?);
+            surface.base = crate::refine::quads(mesh, &surface.topology);
+            surface.lift = 1;
+        } else {
+            loop {
+                surface.topology = Topology::unchecked(&surface.base);
+                let on_base = refiner.rules_on(&surface.base, &surface.topology)?;
+                if matches!(on_base, RulesOn::Own(_)) && surface.base.is_quads() {
+                    break;
+                }
+                surface.base = step(&surface.base, &surface.topology, on_base.get(), surface.lift, ends)?.mesh;
+                surface.lift += 1;
+            }
+        }
+        surface.topology = Topology::unchecked(&surface.base);
+        surface.soft = surface.base.features.largest_finite_sharpness() > 0.0;
+        Ok(surface)
+    }
+
+    fn context(&self) -> Context<'_> {
+        Context {
+            rules: self.rules,
+            kernel: &self.kernel,
+        }
     }
 
     /// The control mesh.
@@ -219,10 +213,10 @@ impl<'a> Surface<'a> {
     pub fn stencil(&self, place: Place) -> Result<Vec<(u32, f64)>, Error> {
         self.at(place)?;
         let topology = Topology::unchecked(&self.control);
-        // a point depends on the faces that touch those which touch its face
+        // a point depends on the faces its piece reads, and on those which the levels before that read
         let mut vertices: std::collections::BTreeSet<u32> =
             self.control.face(place.face as usize).iter().copied().collect();
-        for _ in 0..2 {
+        for _ in 0..=self.kernel.reach().max(1) {
             let ring: Vec<u32> = vertices.iter().copied().collect();
             for vertex in ring {
                 for spoke in topology.fan(vertex).spokes {
@@ -266,4 +260,35 @@ impl<'a> Surface<'a> {
         }
         places
     }
+}
+
+/// A crease or corner that acts in some steps only is no line of reflection.
+fn full_steps(mesh: &Mesh, rules: &Rules, kernel: &Kernel) -> Result<(), Error> {
+    if kernel.dual {
+        return Ok(());
+    }
+    let full = (kernel.order / 2 - 1) as u32;
+    let default = rules.steps.map_or(full, |steps| steps as u32);
+    let features = &mesh.features;
+    let steps = |own: Option<&u32>| own.copied().unwrap_or(default);
+    let edges = features.creases.iter().filter(|(_, s)| **s > 0.0);
+    let edges = edges.filter(|(pair, _)| steps(features.edge_steps.get(*pair)) < full);
+    let edges = edges.map(|(&[a, b], _)| format!("edge {a} {b}"));
+    let vertices = features.corners.iter().filter(|(_, s)| **s > 0.0);
+    let vertices = vertices.filter(|(vertex, _)| steps(features.vertex_steps.get(*vertex)) < full);
+    let found: Vec<String> = edges
+        .chain(vertices.map(|(vertex, _)| format!("vertex {vertex}")))
+        .take(10)
+        .collect();
+    if found.is_empty() {
+        return Ok(());
+    }
+    Err(Error::NoRule {
+        what: "limits beside creases and corners that act in some smoothing steps only".to_owned(),
+        elements: found.join(", "),
+        accepted: format!(
+            "are cs = {full} of order {}, in which they act in all steps",
+            kernel.order
+        ),
+    })
 }

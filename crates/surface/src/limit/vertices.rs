@@ -56,7 +56,8 @@ impl Surface<'_> {
             mesh: &self.control,
             topology: &topology,
             ends: self.ends,
-            values: None,
+            soft: false,
+            net: None,
         };
         let mut found = Vec::new();
         for vertex in 0..topology.vertex_count() as u32 {
