@@ -1,8 +1,8 @@
 //! The basis between two knots with its derivatives, made once and evaluated often.
 //!
 //! Derivatives are differences of lower orders, `B_k' = B_{k-1}(y + 1/2) - B_{k-1}(y - 1/2)`, down to the hat
-//! `B_2 = H` and its slope. On one interval the k functions span `1, x, .., x^(k-3), cos wx, sin wx` (or their
-//! hyperbolic kind). A basis of that space which does not degenerate as w tends to 0 is
+//! `B_2 = H` and its slope. On one interval the k functions span `1, x, .., x^(k-3), cos wx, sin wx` (or
+//! their hyperbolic kind). A basis of that space which does not degenerate as w tends to 0 is
 //!
 //! ```text
 //! x^j / j!  for j <= k-3,      phi_j(x) = sum_m (-+w^2)^m x^(j+2m) / (j+2m)!  for j = k-2, k-1,
