@@ -24,7 +24,7 @@ fn leading(scheme: &Scheme<f64>) -> Vec<f64> {
     let system = LocalSystem::new(scheme.limit(), scheme.closed_rings().unwrap()).unwrap();
     let spectrum = system.spectrum().unwrap();
     let values = spectrum.eigenvalues.iter();
-    values.flat_map(|e| vec![e.value.0; e.multiplicity]).collect()
+    values.flat_map(|e| vec![e.value.re; e.multiplicity]).collect()
 }
 
 fn close(found: &[f64], expected: &[f64], tolerance: f64) -> bool {
@@ -73,7 +73,7 @@ fn open_fans_have_the_sine_modes_of_the_double_fan() {
                 let closed: Scheme<f64> = definition(&spec).around(&closed).unwrap();
                 let system = LocalSystem::new(closed.limit(), closed.closed_rings().unwrap()).unwrap();
                 for block in &system.blocks()[1..faces] {
-                    expected.push(block.eigenvalues().unwrap()[0].value.0);
+                    expected.push(block.eigenvalues().unwrap()[0].value.re);
                 }
             }
             for value in expected {
@@ -95,7 +95,7 @@ fn a_crease_with_one_face_is_defective_at_a_quarter() {
         let found = spectrum
             .eigenvalues
             .into_iter()
-            .find(|e| (e.value.0 - value).abs() < 1e-9);
+            .find(|e| (e.value.re - value).abs() < 1e-9);
         found.unwrap()
     };
     let quarter = eigenvalue(Corner::fan(1).unwrap(), 0.25);

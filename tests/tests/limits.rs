@@ -11,7 +11,7 @@
 
 use eigenring_scheme::families::{catmull_clark, doo_sabin, tension};
 use eigenring_scheme::lambda::{Bounds, Domain, Relaxation};
-use eigenring_scheme::{PointNet, Scheme, refine};
+use eigenring_scheme::{Complex, PointNet, Scheme, refine};
 use eigenring_spectral::LocalSystem;
 
 /// Numbers in [-1, 1) by a linear congruence (Knuth's MMIX constants): the same in every run.
@@ -54,7 +54,7 @@ fn refinement_converges_to_the_limit_stencils() {
             let rings = scheme.closed_rings().unwrap() + 1;
             let system = LocalSystem::new(scheme.limit(), rings).unwrap();
             let spectrum = system.spectrum().unwrap();
-            let lambda = spectrum.subdominant().unwrap().value.0;
+            let lambda = spectrum.subdominant().unwrap().value.re;
             let mu = spectrum.subsubdominant().unwrap().modulus();
             let label = format!("{}, N = {valence}, lambda = {lambda}, mu = {mu}", scheme.name());
 
@@ -83,7 +83,7 @@ fn refinement_converges_to_the_limit_stencils() {
             let mut first_remainder = 0.0;
             for m in 0..=80 {
                 let (scale, mut remainder) = (lambda.powi(m), 0.0_f64);
-                for (point, &(x, y)) in net.points.iter().zip(&natural) {
+                for (point, &Complex { re: x, im: y }) in net.points.iter().zip(&natural) {
                     for d in 0..3 {
                         let first_order = limit[d] + scale * (x * tangents[0][d] + y * tangents[1][d]);
                         remainder = remainder.max((point[d] - first_order).abs());

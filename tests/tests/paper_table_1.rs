@@ -21,7 +21,7 @@ fn spectrum_lambda(valence: usize) -> f64 {
     let spectrum = LocalSystem::new(scheme.limit(), rings).unwrap().spectrum().unwrap();
     let subdominant = spectrum.subdominant().unwrap();
     assert_eq!((subdominant.fourier, subdominant.multiplicity), (Some(1), 2));
-    subdominant.value.0
+    subdominant.value.re
 }
 
 #[test]

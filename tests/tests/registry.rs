@@ -7,7 +7,7 @@
 //! what is new must say what it claims.
 
 use eigenring_scheme::lambda::{Bounds, Domain, LambdaTable, Relaxation};
-use eigenring_scheme::{Error, FourierNet, Lattice, Level, Numbering, Scheme, Site, Spec, Symmetry, registry};
+use eigenring_scheme::{Complex, Error, FourierNet, Lattice, Level, Numbering, Scheme, Site, Spec, Symmetry, registry};
 use eigenring_spectral::{LocalSystem, Matrix, fourier_block, local_matrix, numbering};
 use eigenring_tests::Comparison;
 use std::f64::consts::TAU;
@@ -179,25 +179,25 @@ fn spectra_are_those_of_smooth_surfaces() {
             let [one, lambda] = spectrum.eigenvalues[..2] else {
                 unreachable!("blocks 0 and 1 exist and have an eigenvalue each")
             };
-            leading.check(format!("{label}, dominant"), one.value.0, 1.0);
+            leading.check(format!("{label}, dominant"), one.value.re, 1.0);
             assert_eq!((one.fourier, one.multiplicity), (Some(0), 1), "{label}: {one:?}");
             assert_eq!(
                 (lambda.fourier, lambda.multiplicity),
                 (Some(1), 2),
                 "{label}: {lambda:?}"
             );
-            assert!(lambda.value.1 == 0.0 && lambda.value.0 > 0.0, "{label}: {lambda:?}");
+            assert!(lambda.value.im == 0.0 && lambda.value.re > 0.0, "{label}: {lambda:?}");
             // valence 3 on ring 0 of a face net has no third
             let mu = spectrum.eigenvalues.get(2).map_or(0.0, |mu| mu.modulus());
             assert!(one.modulus() > lambda.modulus() && lambda.modulus() > mu, "{label}");
             if which == "limit level" {
                 if let Some(formula) = (expected.lambda)(&spec, n) {
-                    leading.check(format!("{label}, subdominant"), lambda.value.0, formula);
+                    leading.check(format!("{label}, subdominant"), lambda.value.re, formula);
                 }
                 if let Spec::Lambda { lambda, s, .. } = spec {
                     let s = s.unwrap_or_else(|| Relaxation::new(n).unwrap().s(lambda).unwrap());
                     let next = spectrum.subsubdominant().unwrap();
-                    leading.check(format!("{label}, next"), next.value.0, s * lambda * lambda);
+                    leading.check(format!("{label}, next"), next.value.re, s * lambda * lambda);
                 }
             }
         }
@@ -220,7 +220,7 @@ fn the_blocks_hold_the_spectrum_of_the_dense_matrix() {
             assert_eq!(count, matrix.rows(), "{label}");
             for (power, trace) in traces_of_powers(&matrix, 4).into_iter().enumerate() {
                 let sum = spectrum.eigenvalues.iter().map(|e| {
-                    let angle = e.value.1.atan2(e.value.0) * (power + 1) as f64;
+                    let angle = e.value.im.atan2(e.value.re) * (power + 1) as f64;
                     e.multiplicity as f64 * e.modulus().powi(power as i32 + 1) * angle.cos()
                 });
                 traces.check(format!("{label}, power {}", power + 1), sum.sum(), trace);
@@ -231,8 +231,8 @@ fn the_blocks_hold_the_spectrum_of_the_dense_matrix() {
                 let block = fourier_block(&plain, rings, k).unwrap().to_complex();
                 let transform = transform(&matrix, numbering(level, rings), k);
                 for (i, (a, b)) in block.entries().iter().zip(transform.entries()).enumerate() {
-                    transforms.check(format!("{label}, block {k}, entry {i}, re"), a.0, b.0);
-                    transforms.check(format!("{label}, block {k}, entry {i}, im"), a.1, b.1);
+                    transforms.check(format!("{label}, block {k}, entry {i}, re"), a.re, b.re);
+                    transforms.check(format!("{label}, block {k}, entry {i}, im"), a.im, b.im);
                 }
             }
         }
@@ -264,17 +264,17 @@ fn traces_of_powers(matrix: &Matrix<f64>, powers: usize) -> Vec<f64> {
 }
 
 /// `sum_j M[row of sector 0, column of sector j] w^{kj}`, `w = exp(2 pi i/N)`.
-fn transform(matrix: &Matrix<f64>, numbering: Numbering, k: usize) -> Matrix<(f64, f64)> {
+fn transform(matrix: &Matrix<f64>, numbering: Numbering, k: usize) -> Matrix<Complex<f64>> {
     let n = numbering.fan.sectors();
     let sites = FourierNet::<f64>::new(numbering, k, false).unwrap().rows();
     Matrix::from_fn(sites.len(), sites.len(), |row, column| {
         let target = numbering.index(sites[row]).unwrap();
         let copies = if sites[column] == Site::CENTRE { 1 } else { n };
-        (0..copies).fold((0.0, 0.0), |sum, j| {
+        (0..copies).fold(Complex::zero(), |sum, j| {
             let source = numbering.index(sites[column].rotated(numbering.fan, j as i64)).unwrap();
             let angle = TAU * ((k * j) % n) as f64 / n as f64;
             let entry = matrix[(target, source)];
-            (sum.0 + entry * angle.cos(), sum.1 + entry * angle.sin())
+            sum + Complex::new(entry * angle.cos(), entry * angle.sin())
         })
     })
 }

@@ -13,7 +13,7 @@ fn moduli(valence: usize, order: usize, u: f64) -> Vec<(f64, usize)> {
     let rings = scheme.closed_rings().unwrap();
     let spectrum = LocalSystem::new(scheme.level(0), rings).unwrap().spectrum().unwrap();
     let values = by_block(&spectrum, valence).into_iter();
-    values.map(|((re, im), k)| (re.hypot(im), k)).collect()
+    values.map(|(value, k)| (value.modulus(), k)).collect()
 }
 
 #[test]

@@ -29,14 +29,14 @@ fn compare(text: &str, valences: &[usize], built_in: impl Fn(usize) -> Result<Sc
         let [ours, theirs] = [&ours, &theirs].map(|scheme| {
             let spectrum = LocalSystem::new(scheme.limit(), rings).unwrap().spectrum().unwrap();
             let mut values = by_block(&spectrum, n);
-            values.sort_by(|a, b| a.1.cmp(&b.1).then(b.0.0.total_cmp(&a.0.0)));
+            values.sort_by(|a, b| a.1.cmp(&b.1).then(b.0.re.total_cmp(&a.0.re)));
             values
         });
         assert_eq!(ours.len(), theirs.len());
         for ((ours, k), (theirs, same)) in ours.into_iter().zip(theirs) {
             assert_eq!(k, same);
-            spectra.check(format!("{}, N = {n}, block {k}, re", user.name()), ours.0, theirs.0);
-            spectra.check(format!("{}, N = {n}, block {k}, im", user.name()), ours.1, theirs.1);
+            spectra.check(format!("{}, N = {n}, block {k}, re", user.name()), ours.re, theirs.re);
+            spectra.check(format!("{}, N = {n}, block {k}, im", user.name()), ours.im, theirs.im);
         }
     }
     matrices.finish();

@@ -83,7 +83,7 @@ impl Row {
             };
             remarks.push(format!("the subdominant eigenvalue is of Fourier index {fourier}{tie}"));
         }
-        if subdominant.is_some_and(|e| e.value.1 != 0.0) {
+        if subdominant.is_some_and(|e| e.value.im != 0.0) {
             remarks.push("the subdominant eigenvalue is complex".to_owned());
         }
         let quality = if affine && spanned {

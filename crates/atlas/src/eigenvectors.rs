@@ -87,13 +87,12 @@ impl<'a> Eigenvectors<'a> {
     /// The largest entry of `L^T R - I`, relative to the lengths of the vectors.
     pub fn residual(&self) -> f64 {
         let mut largest = 0.0_f64;
-        let length = |v: &[Complex<f64>]| v.iter().map(|x| x.0 * x.0 + x.1 * x.1).sum::<f64>().sqrt();
+        let length = |v: &[Complex<f64>]| v.iter().map(|x| x.norm_square()).sum::<f64>().sqrt();
         for (i, a) in self.vectors.iter().enumerate() {
             for (j, b) in self.vectors.iter().enumerate() {
-                let product = a.left.iter().zip(&b.right).fold((0.0, 0.0), |sum, (l, r)| {
-                    (sum.0 + l.0 * r.0 - l.1 * r.1, sum.1 + l.0 * r.1 + l.1 * r.0)
-                });
-                let defect = (product.0 - f64::from(u8::from(i == j))).hypot(product.1);
+                let pairs = a.left.iter().zip(&b.right);
+                let product = pairs.fold(Complex::zero(), |sum, (&l, &r)| sum + l * r);
+                let defect = (product - Complex::real(f64::from(u8::from(i == j)))).modulus();
                 let relative = defect / (length(&a.left) * length(&b.right)).max(1.0);
                 // a NaN is kept
                 if !(relative <= largest) {
@@ -126,12 +125,12 @@ impl<'a> Eigenvectors<'a> {
         Matrix::from_fn(size, size, |i, j| {
             let entry = part(&self.vectors[j])[i];
             // no negative zeros
-            (if imaginary { entry.1 } else { entry.0 }) + 0.0
+            (if imaginary { entry.im } else { entry.re }) + 0.0
         })
     }
 
     fn is_real(&self) -> bool {
-        self.vectors.iter().all(|v| v.value.1 == 0.0)
+        self.vectors.iter().all(|v| v.value.im == 0.0)
     }
 
     /// Everything as a JSON object. Rows are points, columns vectors; `right_im` and `left_im` are the
@@ -144,7 +143,7 @@ impl<'a> Eigenvectors<'a> {
         let eigenvalues: Vec<Value> = self
             .vectors
             .iter()
-            .map(|v| json!({"re": v.value.0, "im": v.value.1, "fourier": v.fourier}))
+            .map(|v| json!({"re": v.value.re, "im": v.value.im, "fourier": v.fourier}))
             .collect();
         json!({
             "scheme": self.analysis.name,
@@ -174,12 +173,12 @@ impl<'a> Eigenvectors<'a> {
         for v in &self.vectors {
             for (side, vector) in [("right", &v.right), ("left", &v.left)] {
                 for (part, imaginary) in [("re", false), ("im", true)] {
-                    if imaginary && v.value.1 == 0.0 {
+                    if imaginary && v.value.im == 0.0 {
                         continue;
                     }
                     let mut row: Vec<Cell> = vec![
-                        v.value.0.into(),
-                        v.value.1.into(),
+                        v.value.re.into(),
+                        v.value.im.into(),
                         v.fourier.into(),
                         side.into(),
                         part.into(),
@@ -187,7 +186,7 @@ impl<'a> Eigenvectors<'a> {
                     row.extend(
                         vector
                             .iter()
-                            .map(|x| Cell::from((if imaginary { x.1 } else { x.0 }) + 0.0)),
+                            .map(|x| Cell::from((if imaginary { x.im } else { x.re }) + 0.0)),
                     );
                     table.push(row);
                 }
@@ -228,9 +227,11 @@ fn name(sector: usize, x: usize, y: usize, analysis: &Analysis) -> String {
 }
 
 fn number(value: Complex<f64>) -> String {
-    match value {
-        (re, 0.0) => re.to_string(),
-        (re, im) => format!("{re} {im:+} i"),
+    let Complex { re, im } = value;
+    if im == 0.0 {
+        re.to_string()
+    } else {
+        format!("{re} {im:+} i")
     }
 }
 
@@ -255,10 +256,10 @@ fn of_eigenvalue(analysis: &Analysis, e: &Eigenvalue) -> Result<Vec<Vectors>, Er
             .collect());
     }
     let mut vectors = Vec::new();
-    if e.value.1 == 0.0 {
+    if e.value.im == 0.0 {
         for mode in modes {
-            let real = |v: &[Complex<f64>], factor: f64| v.iter().map(|x| (factor * x.0, 0.0)).collect();
-            let imaginary = |v: &[Complex<f64>], factor: f64| v.iter().map(|x| (factor * x.1, 0.0)).collect();
+            let real = |v: &[Complex<f64>], factor: f64| v.iter().map(|x| Complex::real(factor * x.re)).collect();
+            let imaginary = |v: &[Complex<f64>], factor: f64| v.iter().map(|x| Complex::real(factor * x.im)).collect();
             let of = |right, left| Vectors {
                 value: e.value,
                 fourier: Some(index),
@@ -270,7 +271,7 @@ fn of_eigenvalue(analysis: &Analysis, e: &Eigenvalue) -> Result<Vec<Vectors>, Er
         }
     } else {
         vectors.extend(modes.into_iter().map(|mode| plain(mode, e.value, Some(index))));
-        let conjugate = (e.value.0, -e.value.1);
+        let conjugate = e.value.conj();
         let modes = system.modes(n - index, conjugate)?.into_iter();
         vectors.extend(modes.map(|mode| plain(mode, conjugate, Some(n - index))));
     }
@@ -304,10 +305,10 @@ mod tests {
                 let matrix = LocalMatrix::new(&scheme, Some(rings), None).unwrap().matrix;
                 assert!(found.residual() < 1e-10, "{spec} {valence}: {}", found.residual());
                 for v in &found.vectors {
-                    let largest = v.right.iter().map(|x| x.0.hypot(x.1)).fold(0.0, f64::max);
+                    let largest = v.right.iter().map(|x| x.modulus()).fold(0.0, f64::max);
                     for (i, x) in v.right.iter().enumerate() {
-                        let image: f64 = matrix.row(i).iter().zip(&v.right).map(|(m, x)| m * x.0).sum();
-                        let error = (image - v.value.0 * x.0 + v.value.1 * x.1).abs();
+                        let image: f64 = matrix.row(i).iter().zip(&v.right).map(|(m, x)| m * x.re).sum();
+                        let error = (image - v.value.re * x.re + v.value.im * x.im).abs();
                         assert!(error < 1e-11 * largest, "{spec} {valence}: {error}");
                     }
                 }
@@ -327,17 +328,17 @@ mod tests {
         let rings = scheme.closed_rings().unwrap();
         let analysis = Analysis::of_scheme(&scheme, Some(rings), None).unwrap();
         let eigenvalues = &analysis.spectrum.eigenvalues;
-        let complex: Vec<_> = eigenvalues.iter().filter(|e| e.value.1 != 0.0).collect();
+        let complex: Vec<_> = eigenvalues.iter().filter(|e| e.value.im != 0.0).collect();
         assert!(!complex.is_empty());
         for e in complex.iter().filter(|e| e.fourier != Some(0)) {
-            let other = complex.iter().find(|o| o.value == (e.value.0, -e.value.1)).unwrap();
+            let other = complex.iter().find(|o| o.value == e.value.conj()).unwrap();
             assert_eq!(e.fourier.unwrap() + other.fourier.unwrap(), 5, "{e:?}");
         }
         let count: usize = eigenvalues.iter().map(|e| e.multiplicity).sum();
         assert_eq!(count, analysis.system.numbering().count());
         let vectors = Eigenvectors::new(&analysis).unwrap();
         assert!(vectors.residual() < 1e-10);
-        assert!(vectors.vectors.iter().any(|v| v.fourier == Some(4) && v.value.1 > 0.0));
+        assert!(vectors.vectors.iter().any(|v| v.fourier == Some(4) && v.value.im > 0.0));
     }
 
     #[test]

@@ -18,8 +18,8 @@
 //!
 //! // 1, then the subdominant eigenvalue, once for each of the blocks 1 and 4
 //! let [one, lambda] = [0, 1].map(|index| &analysis.spectrum.eigenvalues[index]);
-//! assert!((one.value.0 - 1.0).abs() < 1e-12 && one.multiplicity == 1);
-//! assert!((lambda.value.0 - 0.549988).abs() < 1e-6);
+//! assert!((one.value.re - 1.0).abs() < 1e-12 && one.multiplicity == 1);
+//! assert!((lambda.value.re - 0.549988).abs() < 1e-6);
 //! assert_eq!((lambda.fourier, lambda.multiplicity), (Some(1), 2));
 //! # Ok::<(), eigenring_atlas::Error>(())
 //! ```

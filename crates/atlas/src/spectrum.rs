@@ -184,7 +184,7 @@ impl Analysis {
                     short(lambda.modulus()),
                 ));
             }
-            if lambda.value.1 != 0.0 {
+            if lambda.value.im != 0.0 {
                 notes.push(format!(
                     "the subdominant eigenvalue is complex, of modulus {}",
                     short(lambda.modulus())
@@ -211,7 +211,7 @@ impl Analysis {
             Lattice::Vertex => "vertex",
             Lattice::Face => "face",
         };
-        let signed = |e: &Eigenvalue| if e.value.1 == 0.0 { e.value.0 } else { e.modulus() };
+        let signed = |e: &Eigenvalue| if e.value.im == 0.0 { e.value.re } else { e.modulus() };
         Record::default()
             .with("scheme", self.name.as_str())
             .with("corner", self.corner.as_str())
@@ -232,8 +232,8 @@ impl Analysis {
         let mut table = Table::new(["re", "im", "fourier", "multiplicity", "geometric", "jordan"]);
         for e in &self.spectrum.eigenvalues {
             table.push(vec![
-                e.value.0.into(),
-                e.value.1.into(),
+                e.value.re.into(),
+                e.value.im.into(),
                 e.fourier.into(),
                 e.multiplicity.into(),
                 e.geometric.into(),
@@ -248,11 +248,10 @@ impl Analysis {
     pub(crate) fn jordan(&self, eigenvalue: &Eigenvalue) -> Option<String> {
         let (index, n) = (eigenvalue.fourier.unwrap_or(0), self.system.valence());
         // block N-k is the conjugate of block k
-        let (re, im) = eigenvalue.value;
         let (index, value) = if 2 * index > n {
-            (n - index, (re, -im))
+            (n - index, eigenvalue.value.conj())
         } else {
-            (index, (re, im))
+            (index, eigenvalue.value)
         };
         let block = self.system.blocks().get(index)?;
         let sizes = eigenvalue.is_defective().then(|| block.jordan_sizes(value).ok())??;
@@ -326,14 +325,14 @@ impl Limits {
             .spectrum
             .eigenvalues
             .iter()
-            .find(|e| e.fourier == Some(1) && e.value.1 == 0.0);
+            .find(|e| e.fourier == Some(1) && e.value.im == 0.0);
         let stray = analysis.spectrum.stray().zip(analysis.spectrum.subdominant());
         let tangents = match lambda {
             _ if stray.is_some() => Err(eigenring_spectral::Error::Stray {
                 value: stray.map_or(f64::NAN, |(_, e)| e.modulus()),
                 fourier: stray.map_or(0, |(index, _)| index),
             }),
-            Some(lambda) => system.limit_tangents(lambda.value.0),
+            Some(lambda) => system.limit_tangents(lambda.value.re),
             // without blocks: of the pair after 1, equal or not
             None => system.pair_functionals(&analysis.spectrum),
         };

@@ -6,6 +6,7 @@
 use crate::Interval;
 use crate::linear::{eigenpair, quotient, radius_below};
 use crate::spectral::{Block, Evidence, Peel, Rest};
+use eigenring_scheme::Complex;
 use eigenring_spectral::{Block as Fourier, Matrix};
 
 /// Evidence for the eigenvalues of all blocks.
@@ -56,22 +57,20 @@ fn leading(matrix: &Matrix<f64>) -> Option<(f64, Vec<f64>)> {
     let block = Fourier::Real(matrix.clone());
     let values = block.eigenvalues().ok()?;
     let first = values.first()?;
-    let modulus = |v: (f64, f64)| v.0.hypot(v.1);
-    let apart =
-        |other: (f64, f64)| (other.0 - first.value.0).hypot(other.1 - first.value.1) > APART * modulus(first.value);
-    if first.multiplicity > 1 || first.value.1 != 0.0 || !values[1..].iter().all(|v| apart(v.value)) {
+    let apart = |other: Complex<f64>| (other - first.value).modulus() > APART * first.value.modulus();
+    if first.multiplicity > 1 || first.value.im != 0.0 || !values[1..].iter().all(|v| apart(v.value)) {
         return None;
     }
     let space = block.eigenspace(first.value, 0).ok()?;
     let [vector] = &space.right[..] else { return None };
-    Some((first.value.0, vector.iter().map(|x| x.0).collect()))
+    Some((first.value.re, vector.iter().map(|x| x.re).collect()))
 }
 
 /// The smallest radius for which a factor was found.
 fn rest(exact: &Matrix<Interval>) -> Option<Rest> {
     let matrix = &exact.map(Interval::mid);
     let values = Fourier::Real(matrix.clone()).eigenvalues().ok()?;
-    let reach = values.first().map_or(0.0, |v| v.value.0.hypot(v.value.1));
+    let reach = values.first().map_or(0.0, |v| v.value.modulus());
     // nearer to the spectral radius the factor is the larger; the last ones are for nilpotent matrices
     let excess = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.3];
     let floors = [1e-3, 1e-2, 0.05, 0.1];

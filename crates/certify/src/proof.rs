@@ -10,6 +10,7 @@ use crate::rows;
 use crate::spectral::{self, EnclosedSpectrum, Problem};
 use crate::{Check, Error, Interval, Statement, Status, Subject, Witness};
 use eigenring_scheme::Lattice;
+use eigenring_spectral::SecondOrder;
 use std::slice;
 
 /// What is to be enclosed; or, where no patches are known, all that can be said without.
@@ -258,7 +259,7 @@ impl<'a> Proof<'a> {
 }
 
 fn parts(net: spectral::Net) -> [Vec<Interval>; 2] {
-    let (x, y) = net.into_iter().unzip();
+    let (x, y) = net.into_iter().map(|z| (z.re, z.im)).unzip();
     [x, y]
 }
 
@@ -268,8 +269,7 @@ fn characteristic(spectrum: &EnclosedSpectrum, lambda: &Subdominant) -> Option<P
     PlaneNet::new(spectrum.patches.annulus, 1, true, parts(net)).ok()
 }
 
-/// The maps of the largest further eigenvalues of the blocks 0 and 2 (N = 3: of block 1 once more; N = 4: two
-/// of block 2).
+/// The maps of the largest further eigenvalues of the blocks of quadratic terms.
 fn second_order_maps(
     spectrum: &EnclosedSpectrum,
     lambda: &Subdominant,
@@ -314,20 +314,15 @@ fn second_order_maps(
         };
         Some((Heights::new(net, entry.index, parts).ok()?, sign))
     };
-    let saddles = match n {
-        3 => largest(1, 1),
-        4 => largest(2, 2),
-        _ => largest(2, 1),
-    };
-    let wanted = if n == 4 { 3 } else { 2 };
-    let found: Vec<_> = largest(0, 1)
-        .into_iter()
-        .filter_map(|position| heights(position, Sign::Positive))
-        .chain(
-            saddles
+    let maps = SecondOrder::of(n).into_iter().zip([Sign::Positive, Sign::Negative]);
+    let wanted: usize = SecondOrder::of(n).iter().map(|of| of.copies).sum();
+    let found: Vec<_> = maps
+        .flat_map(|(of, sign)| {
+            largest(of.block, of.copies)
                 .into_iter()
-                .filter_map(|position| heights(position, Sign::Negative)),
-        )
+                .map(move |position| (position, sign))
+        })
+        .filter_map(|(position, sign)| heights(position, sign))
         .collect();
     if found.len() == wanted { found } else { Vec::new() }
 }

@@ -6,7 +6,6 @@
 //! rings more than those show all rows. Levels that differ are looked at one by one, those beyond the leading
 //! ones with rules that enclose all of theirs, the limit level last.
 
-use crate::exact::{Field, row_sum_defect};
 use crate::input::passes_are_affine;
 use crate::{Check, Error, Interval, Statement, Subject, Witness};
 use eigenring_scheme::{Error as SchemeError, Exact, Level, Net, Scalar, Site, refine};
@@ -52,7 +51,7 @@ fn row_sums_of(
 ) -> Result<Check, Error> {
     const NAME: Statement = Statement::RowSums;
     let sites = level.row_sites()?;
-    let sums = refine(level, &OneNet, &sites)?;
+    let sums: Vec<Interval> = refine(level, &OneNet, &sites)?;
     if !sums.iter().all(|sum| sum.is_bounded()) {
         return Ok(Check::undecided(
             NAME,
@@ -69,10 +68,7 @@ fn row_sums_of(
             .enclosing(Interval::point(0.0))
             .remark("in exact arithmetic, those of leading levels as an identity in the tension"));
     }
-    let defects = exact.and_then(|exact| {
-        let field = Field::new(exact.fan().sectors());
-        row_sum_defect(&field, exact, &sites)
-    });
+    let defects = exact.and_then(|exact| row_sum_defects(exact, &sites));
     if let Some(defects) = defects {
         let wrong = sites.iter().zip(&defects).filter_map(|(site, defect)| match defect {
             Some((false, by)) => Some((site, *by)),
@@ -98,7 +94,7 @@ fn row_sums_of(
             return Ok(Check::proven(NAME).enclosing(Interval::point(0.0)).remark(remark));
         }
     }
-    // numbers of another cyclotomic field than that of the sectors, such as the root of 3 at four
+    // products of the weights of several passes may be beyond exact numbers
     if exact.is_some_and(passes_are_affine) {
         return Ok(Check::proven(NAME)
             .enclosing(Interval::point(0.0))
@@ -182,25 +178,67 @@ pub fn hull(subject: &Subject) -> Result<Check, Error> {
     })
 }
 
-/// Every point is 1.
+/// The exact sum of the weights of a refined point, less 1, for each of the given points: whether it is zero,
+/// and an enclosure of it. `None` for a point that a weight without exact value takes part in; nothing at all
+/// if the rules cannot be run.
+fn row_sum_defects(level: &Level<Exact>, sites: &[Site]) -> Option<Vec<Option<(bool, Interval)>>> {
+    let sums = refine(level, &OneNet, sites).ok()?;
+    let defect = |sum: Exact| {
+        let defect = sum - Exact::one();
+        let is_zero = defect.is_zero()?;
+        let rough = if is_zero { Interval::point(0.0) } else { defect.to()? };
+        Some((is_zero, rough))
+    };
+    Some(sums.into_iter().map(defect).collect())
+}
+
+/// Every point is 1: a refined point's value is the sum of the weights that make it.
 struct OneNet;
 
-impl Net<Interval> for OneNet {
-    type Value = Interval;
+impl<S: Scalar> Net<S> for OneNet {
+    type Value = S;
 
-    fn zero(&self) -> Interval {
-        Interval::point(0.0)
+    fn zero(&self) -> S {
+        S::zero()
     }
 
-    fn control(&self, _site: Site) -> Result<Interval, SchemeError> {
-        Ok(Interval::one())
+    fn control(&self, _site: Site) -> Result<S, SchemeError> {
+        Ok(S::one())
     }
 
     fn orbit(&self, site: Site) -> Site {
         site
     }
 
-    fn accumulate(&self, sum: &mut Interval, &weight: &Interval, at_orbit: &Interval, _site: Site) {
-        *sum += weight * *at_orbit;
+    fn accumulate(&self, sum: &mut S, weight: &S, at_orbit: &S, _site: Site) {
+        *sum += weight.clone() * at_orbit.clone();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use eigenring_scheme::families::{doo_sabin, tension};
+    use eigenring_scheme::{Fan, Lattice, Line, Pass, Scheme, Stencil};
+
+    #[test]
+    fn exact_sums_are_one_and_planted_faults_are_seen() {
+        for valence in [3, 5, 8] {
+            let mut schemes: Vec<Scheme<Exact>> = vec![doo_sabin(valence).unwrap()];
+            schemes.extend([3, 4, 5, 6, 9].map(|order| tension(valence, order, 1.0).unwrap()));
+            for scheme in schemes {
+                let sites: Vec<Site> = scheme.numbering(2).sector_sites(0).collect();
+                let defects = row_sum_defects(scheme.limit(), &sites).unwrap();
+                let zero = Some((true, Interval::point(0.0)));
+                assert!(defects.into_iter().all(|defect| defect == zero), "{}", scheme.name());
+            }
+        }
+        let stencil = Stencil::new().with(Site::CENTRE, Exact::ratio(1_000_000_001, 1_000_000_000));
+        let pass = Pass::regular(Lattice::Vertex, Lattice::Vertex, Line::cubic()).with(Site::CENTRE, stencil);
+        let level = Level::new(Fan::Closed(5), vec![pass]).unwrap();
+        let [Some((zero, defect))] = row_sum_defects(&level, &[Site::CENTRE]).unwrap()[..] else {
+            panic!("decidable");
+        };
+        assert!(!zero && defect.contains(1e-9));
     }
 }

@@ -1,6 +1,6 @@
 //! Nets of one Fourier index: the blocks of rotation-symmetric rules, real ones under mirror symmetry.
 
-use crate::{Error, Net, Numbering, Scalar, Site};
+use crate::{Complex, Error, Net, Numbering, Scalar, Site};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -21,9 +21,6 @@ pub struct FourierNet<S> {
     half_turns: Arc<[Complex<S>]>,
 }
 
-/// A complex number as (real, imaginary).
-pub type Complex<S> = (S, S);
-
 /// A linear form on the unknowns of a block.
 ///
 /// A refined point depends on a few rings, which are neighbours in the order of the unknowns: coefficients
@@ -34,7 +31,7 @@ pub struct Form<S> {
     coefficients: Vec<Complex<S>>,
 }
 
-impl<S: Scalar + Copy> Form<S> {
+impl<S: Scalar> Form<S> {
     /// The coefficients of all unknowns.
     pub fn coefficients(&self) -> &[Complex<S>] {
         &self.coefficients
@@ -57,22 +54,16 @@ impl<S: Scalar + Copy> Form<S> {
     fn add(&mut self, other: &Form<S>, term: impl Fn(Complex<S>) -> Complex<S>) {
         let range = other.nonzero.clone();
         self.widen(&range);
-        for (sum, &c) in self.coefficients[range.clone()]
+        for (sum, c) in self.coefficients[range.clone()]
             .iter_mut()
             .zip(&other.coefficients[range])
         {
-            let (re, im) = term(c);
-            sum.0 += re;
-            sum.1 += im;
+            *sum += term(c.clone());
         }
     }
 }
 
-fn times<S: Scalar + Copy>(a: Complex<S>, b: Complex<S>) -> Complex<S> {
-    (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
-}
-
-impl<S: Scalar + Copy> FourierNet<S> {
+impl<S: Scalar> FourierNet<S> {
     /// The net of Fourier index `index`, with real unknowns if `mirror`.
     ///
     /// # Errors
@@ -82,15 +73,11 @@ impl<S: Scalar + Copy> FourierNet<S> {
         if index >= n {
             return Err(Error::FourierIndex { index, valence: n });
         }
-        let of = |j: usize| {
-            let (j, n) = (j as i64, 2 * n as i64);
-            (S::cos_turn(j, n), S::sin_turn(j, n))
-        };
         Ok(FourierNet {
             numbering,
             index,
             mirror,
-            half_turns: (0..2 * n).map(of).collect(),
+            half_turns: (0..2 * n as i64).map(|j| Complex::turn(j, 2 * n as i64)).collect(),
         })
     }
 
@@ -135,20 +122,17 @@ impl<S: Scalar + Copy> FourierNet<S> {
 
     /// `w^{k j / 2}`.
     fn half_phase(&self, j: usize) -> Complex<S> {
-        self.half_turns[self.index * j % self.half_turns.len()]
+        self.half_turns[self.index * j % self.half_turns.len()].clone()
     }
 
-    /// The value of a mode at a site, given its unknowns (real ones as (r, 0) if the net has mirror
-    /// symmetry).
+    /// The value of a mode at a site, given its unknowns, which are real if the net has mirror symmetry.
     pub fn mode(&self, unknowns: &[Complex<S>], site: Site) -> Result<Complex<S>, Error> {
         let control = self.control(self.orbit(site))?;
         let mut moved = self.zero();
         self.accumulate(&mut moved, &S::one(), &control, site);
-        let mut sum = (S::zero(), S::zero());
-        for (&coefficient, &unknown) in moved.coefficients.iter().zip(unknowns) {
-            let term = times(coefficient, unknown);
-            sum.0 += term.0;
-            sum.1 += term.1;
+        let mut sum = Complex::zero();
+        for (coefficient, unknown) in moved.coefficients.into_iter().zip(unknowns) {
+            sum += coefficient * unknown.clone();
         }
         Ok(sum)
     }
@@ -162,9 +146,9 @@ impl<S: Scalar + Copy> FourierNet<S> {
     pub fn functional(&self, coefficients: &[Complex<S>], site: Site) -> Result<Complex<S>, Error> {
         if site == Site::CENTRE {
             let part = self.centre() == 1;
-            return Ok(if part { coefficients[0] } else { (S::zero(), S::zero()) });
+            return Ok(if part { coefficients[0].clone() } else { Complex::zero() });
         }
-        let own = coefficients[self.column(site)?];
+        let own = coefficients[self.column(site)?].clone();
         let swapped = Site {
             x: site.y,
             y: site.x,
@@ -177,19 +161,19 @@ impl<S: Scalar + Copy> FourierNet<S> {
         } else if site.x == site.y {
             (1, own)
         } else {
-            let other = coefficients[self.column(swapped)?];
+            let other = coefficients[self.column(swapped)?].clone();
             let half = S::ratio(1, 2);
             let (p, q, sign) = if site.x > site.y {
-                (own, other, half)
+                (own, other, half.clone())
             } else {
-                (other, own, -half)
+                (other, own, -half.clone())
             };
             // (p -+ i q) / 2
-            (1, (half * p.0 + sign * q.1, half * p.1 - sign * q.0))
+            (1, p.scale(half) + Complex::new(q.im, -q.re).scale(sign))
         };
         let phase = self.half_phase(2 * site.sector + half_turns);
         let n = S::ratio(self.numbering.fan.sectors() as i64, 1);
-        Ok(times((phase.0 / n, -(phase.1 / n)), own))
+        Ok(Complex::new(phase.re / n.clone(), -(phase.im / n)) * own)
     }
 
     /// The block's row of the unknown at `site` (of [`FourierNet::rows`]), from the value of its orbit.
@@ -200,34 +184,34 @@ impl<S: Scalar + Copy> FourierNet<S> {
             return at_orbit.to_vec();
         }
         let phase = if site.y == 0 {
-            (S::one(), S::zero())
+            Complex::one()
         } else {
             self.half_phase(1)
         };
-        let back = (phase.0, -phase.1);
+        let back = phase.conj();
         at_orbit
             .iter()
-            .map(|&coefficient| {
-                let (p, q) = times(back, coefficient);
-                (if site.x >= site.y { p } else { q }, S::zero())
+            .map(|coefficient| {
+                let Complex { re: p, im: q } = back.clone() * coefficient.clone();
+                Complex::real(if site.x >= site.y { p } else { q })
             })
             .collect()
     }
 }
 
-impl<S: Scalar + Copy> Net<S> for FourierNet<S> {
+impl<S: Scalar> Net<S> for FourierNet<S> {
     type Value = Form<S>;
 
     fn zero(&self) -> Form<S> {
         Form {
             nonzero: 0..0,
-            coefficients: vec![(S::zero(), S::zero()); self.size()],
+            coefficients: vec![Complex::zero(); self.size()],
         }
     }
 
     fn control(&self, site: Site) -> Result<Form<S>, Error> {
         let mut form = self.zero();
-        let one = (S::one(), S::zero());
+        let one = Complex::one();
         if site == Site::CENTRE {
             // the centre is zero in every mode but those of index 0
             if self.centre() == 1 {
@@ -237,14 +221,14 @@ impl<S: Scalar + Copy> Net<S> for FourierNet<S> {
             form.set(self.column(site)?, one);
         } else {
             let phase = self.half_phase(1);
-            form.set(self.column(site)?, phase);
+            form.set(self.column(site)?, phase.clone());
             if site.x > site.y {
                 let swapped = Site {
                     x: site.y,
                     y: site.x,
                     ..site
                 };
-                form.set(self.column(swapped)?, (-phase.1, phase.0));
+                form.set(self.column(swapped)?, Complex::new(-phase.im, phase.re));
             }
         }
         Ok(form)
@@ -261,19 +245,17 @@ impl<S: Scalar + Copy> Net<S> for FourierNet<S> {
 
     /// A point `(x, y)` with `x < y` is the reflection of `(y, x)`: its value is `w^{k (2i+1)/2}` times the
     /// conjugate of `w^{-k/2} v(y, x)`.
-    fn accumulate(&self, sum: &mut Form<S>, &weight: &S, at_orbit: &Form<S>, site: Site) {
+    fn accumulate(&self, sum: &mut Form<S>, weight: &S, at_orbit: &Form<S>, site: Site) {
         if site == Site::CENTRE && self.index != 0 {
             return;
         }
         let conjugate = self.mirror && site.x < site.y;
         let turns = 2 * site.sector + if conjugate { 2 } else { 0 };
-        let phase = self.half_phase(turns);
-        let factor = (weight * phase.0, weight * phase.1);
-        match (turns, conjugate) {
+        if turns == 0 {
             // most sources lie in the sector of their target
-            (0, _) => sum.add(at_orbit, |(re, im)| (weight * re, weight * im)),
-            (_, false) => sum.add(at_orbit, |c| times(factor, c)),
-            (_, true) => sum.add(at_orbit, |(re, im)| times(factor, (re, -im))),
+            return sum.add(at_orbit, |c| c.scale(weight.clone()));
         }
+        let factor = self.half_phase(turns).scale(weight.clone());
+        sum.add(at_orbit, |c| factor.clone() * if conjugate { c.conj() } else { c });
     }
 }

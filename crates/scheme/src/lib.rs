@@ -48,10 +48,10 @@ pub mod user;
 pub use corner::{Centre, Corner, MAX_SECTORS, Shape, Spoke};
 pub use definition::Definition;
 /// The number types that rules are generic over.
-pub use eigenring_spline::{BigRational, Dual, Same, Scalar};
+pub use eigenring_spline::{BigRational, Complex, Dual, Same, Scalar};
 pub use error::{Error, RuleFault};
 pub use exact::{Cosines, Exact};
-pub use fourier::{Complex, Form, FourierNet};
+pub use fourier::{Form, FourierNet};
 pub use level::{Level, Symmetry};
 pub use line::{Line, Taps};
 pub use net::{DenseNet, Net, Plan, PointNet, refine};

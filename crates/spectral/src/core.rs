@@ -9,7 +9,7 @@
 //!
 //! Zeros have the rank of the whole block and of its powers, which are sparse.
 
-use crate::eigen::{NEGLIGIBLE, modulus};
+use crate::eigen::{NEGLIGIBLE, to_faer};
 use crate::hessenberg::Number;
 use crate::{Block, Matrix, NULL};
 use eigenring_scheme::Complex;
@@ -47,20 +47,20 @@ impl Block<f64> {
     fn largest(&self) -> f64 {
         match self {
             Block::Real(matrix) => matrix.entries().iter().fold(0.0, |max, x| max.max(x.abs())),
-            Block::Complex(matrix) => matrix.entries().iter().fold(0.0, |max, &x| max.max(modulus(x))),
+            Block::Complex(matrix) => matrix.entries().iter().fold(0.0, |max, &x| max.max(x.modulus())),
         }
     }
 
     fn size_at(&self, i: usize, j: usize) -> f64 {
         match self {
             Block::Real(matrix) => matrix[(i, j)].abs(),
-            Block::Complex(matrix) => modulus(matrix[(i, j)]),
+            Block::Complex(matrix) => matrix[(i, j)].modulus(),
         }
     }
 
     fn entry(&self, i: usize, j: usize) -> Complex<f64> {
         match self {
-            Block::Real(matrix) => (matrix[(i, j)], 0.0),
+            Block::Real(matrix) => Complex::real(matrix[(i, j)]),
             Block::Complex(matrix) => matrix[(i, j)],
         }
     }
@@ -79,23 +79,16 @@ impl Block<f64> {
     /// The core where it tells of an eigenvalue: not of zero.
     pub(crate) fn core_for(&self, value: Complex<f64>) -> Option<Block<f64>> {
         let core = self.core();
-        let known = core > 0 && core < self.size() && modulus(value) > NULL * self.largest();
+        let known = core > 0 && core < self.size() && value.modulus() > NULL * self.largest();
         known.then(|| self.leading(core))
     }
 
     /// The right vector of an eigenvalue of the block whose entries in the core are given.
     pub(crate) fn extend(&self, vector: &mut Vec<Complex<f64>>, value: Complex<f64>) {
-        let value = c64::new(value.0, value.1);
         for row in vector.len()..self.size() {
-            let sum = vector
-                .iter()
-                .enumerate()
-                .fold(c64::new(0.0, 0.0), |sum, (j, &(re, im))| {
-                    let (a, b) = self.entry(row, j);
-                    sum + c64::new(a, b) * c64::new(re, im)
-                });
-            let entry = sum / value;
-            vector.push((entry.re, entry.im));
+            let entries = vector.iter().enumerate();
+            let sum = entries.fold(Complex::zero(), |sum, (j, &entry)| sum + self.entry(row, j) * entry);
+            vector.push(sum / value);
         }
     }
 
@@ -112,8 +105,8 @@ impl Block<f64> {
     /// The dimensions of the null spaces of the first powers, until they are the same.
     fn kernels(&self, most: usize) -> Vec<usize> {
         match self {
-            Block::Real(_) => kernels(&Sparse::of(self, |(re, _)| re), most),
-            Block::Complex(_) => kernels(&Sparse::of(self, |(re, im)| c64::new(re, im)), most),
+            Block::Real(_) => kernels(&Sparse::of(self, |entry| entry.re), most),
+            Block::Complex(_) => kernels(&Sparse::of(self, to_faer), most),
         }
     }
 }
@@ -246,17 +239,16 @@ mod tests {
                 .chain([dense])
             {
                 assert!(block.core() <= scheme.numbering(core).count(), "{}", block.core());
-                assert_eq!(block.sparse_nullity(), block.nullity((0.0, 0.0)).unwrap());
+                assert_eq!(block.sparse_nullity(), block.nullity(Complex::zero()).unwrap());
                 let whole = block.eigenvalues().unwrap();
                 let core = block.leading(block.core()).eigenvalues().unwrap();
-                for e in whole.iter().filter(|e| modulus(e.value) > 1e-9) {
-                    let same = core.iter().find(|c| {
-                        modulus((c.value.0 - e.value.0, c.value.1 - e.value.1)) < 1e-12
-                            && c.multiplicity == e.multiplicity
-                    });
+                for e in whole.iter().filter(|e| e.value.modulus() > 1e-9) {
+                    let same = core
+                        .iter()
+                        .find(|c| (c.value - e.value).modulus() < 1e-12 && c.multiplicity == e.multiplicity);
                     assert!(same.is_some(), "{e:?}");
                 }
-                assert_eq!(block.nilpotent_sizes(), block.jordan_sizes((0.0, 0.0)).unwrap());
+                assert_eq!(block.nilpotent_sizes(), block.jordan_sizes(Complex::zero()).unwrap());
             }
         }
     }
@@ -267,14 +259,14 @@ mod tests {
         let scheme = catmull_clark::<f64>(5).unwrap();
         let system = LocalSystem::new(scheme.limit(), 12).unwrap();
         let matrix = local_matrix(scheme.limit(), 12).unwrap();
-        for (index, value) in [(0, 1.0), (1, system.eigenvalues().unwrap().eigenvalues[1].value.0)] {
+        for (index, value) in [(0, 1.0), (1, system.eigenvalues().unwrap().eigenvalues[1].value.re)] {
             let mode = system.single(index, value).unwrap();
-            let largest = mode.values.iter().map(|&v| modulus(v)).fold(0.0, f64::max);
+            let largest = mode.values.iter().map(|v| v.modulus()).fold(0.0, f64::max);
             for i in 0..matrix.rows() {
-                let image: f64 = (0..matrix.rows()).map(|j| matrix[(i, j)] * mode.values[j].0).sum();
-                assert!((image - value * mode.values[i].0).abs() < 1e-13 * largest);
-                let image: f64 = (0..matrix.rows()).map(|j| matrix[(j, i)] * mode.functional[j].0).sum();
-                assert!((image - value * mode.functional[i].0).abs() < 1e-14);
+                let image: f64 = (0..matrix.rows()).map(|j| matrix[(i, j)] * mode.values[j].re).sum();
+                assert!((image - value * mode.values[i].re).abs() < 1e-13 * largest);
+                let image: f64 = (0..matrix.rows()).map(|j| matrix[(j, i)] * mode.functional[j].re).sum();
+                assert!((image - value * mode.functional[i].re).abs() < 1e-14);
             }
         }
     }

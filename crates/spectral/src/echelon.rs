@@ -21,12 +21,10 @@ pub(crate) struct Dual {
 /// The echelon form of the right vectors, by elimination with the pivots tried in the given order, and the
 /// left vectors dual to it.
 pub(crate) fn dual(space: &Eigenspace, fourier: usize, order: impl Fn(usize) -> usize) -> Result<Dual, Error> {
-    let scaled =
-        |v: &[Complex<f64>], by: Complex<f64>| -> Vec<Complex<f64>> { v.iter().map(|&x| times(x, by)).collect() };
+    let scaled = |v: &[Complex<f64>], by: Complex<f64>| -> Vec<Complex<f64>> { v.iter().map(|&x| x * by).collect() };
     let subtract = |v: &mut [Complex<f64>], by: Complex<f64>, w: &[Complex<f64>]| {
         for (v, &w) in v.iter_mut().zip(w) {
-            let term = times(by, w);
-            *v = (v.0 - term.0, v.1 - term.1);
+            *v = *v - by * w;
         }
     };
     let mut right = space.right.clone();
@@ -36,13 +34,13 @@ pub(crate) fn dual(space: &Eigenspace, fourier: usize, order: impl Fn(usize) -> 
         if done == right.len() {
             break;
         }
-        let largest = |v: &Vec<Complex<f64>>| v[position].0.hypot(v[position].1);
+        let largest = |v: &Vec<Complex<f64>>| v[position].modulus();
         let best = (done..right.len()).max_by(|&a, &b| largest(&right[a]).total_cmp(&largest(&right[b])));
         let Some(best) = best.filter(|&best| largest(&right[best]) > PIVOT) else {
             continue;
         };
         right.swap(done, best);
-        right[done] = scaled(&right[done], reciprocal(right[done][position]));
+        right[done] = scaled(&right[done], right[done][position].recip());
         let pivot = right[done].clone();
         for (other, vector) in right.iter_mut().enumerate() {
             if other != done {
@@ -54,31 +52,24 @@ pub(crate) fn dual(space: &Eigenspace, fourier: usize, order: impl Fn(usize) -> 
         done += 1;
     }
     // the Gram matrix L R, inverted onto L by elimination
-    let dot = |l: &[Complex<f64>], r: &[Complex<f64>]| {
-        l.iter().zip(r).fold((0.0, 0.0), |sum, (&l, &r)| {
-            let term = times(l, r);
-            (sum.0 + term.0, sum.1 + term.1)
-        })
-    };
+    let dot =
+        |l: &[Complex<f64>], r: &[Complex<f64>]| l.iter().zip(r).fold(Complex::zero(), |sum, (&l, &r)| sum + l * r);
     let mut left = space.left.clone();
     for column in 0..right.len() {
-        let size = |l: &Vec<Complex<f64>>| {
-            let product = dot(l, &right[column]);
-            product.0.hypot(product.1) / length(l) / length(&right[column])
-        };
+        let size = |l: &Vec<Complex<f64>>| dot(l, &right[column]).modulus() / length(l) / length(&right[column]);
         let best = (column..left.len())
             .max_by(|&a, &b| size(&left[a]).total_cmp(&size(&left[b])))
             .filter(|&best| size(&left[best]) > DEFECTIVE);
         let Some(best) = best else {
             return Err(Error::Defective {
-                value: space.value.0,
+                value: space.value.re,
                 fourier,
                 product: left[column..].iter().map(size).fold(0.0, f64::max),
             });
         };
         left.swap(column, best);
         let product = dot(&left[column], &right[column]);
-        left[column] = scaled(&left[column], reciprocal(product));
+        left[column] = scaled(&left[column], product.recip());
         let pivot = left[column].clone();
         for (other, vector) in left.iter_mut().enumerate() {
             if other != column {
@@ -91,14 +82,5 @@ pub(crate) fn dual(space: &Eigenspace, fourier: usize, order: impl Fn(usize) -> 
 }
 
 pub(crate) fn length(v: &[Complex<f64>]) -> f64 {
-    v.iter().map(|x| x.0 * x.0 + x.1 * x.1).sum::<f64>().sqrt()
-}
-
-pub(crate) fn times(a: Complex<f64>, b: Complex<f64>) -> Complex<f64> {
-    (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
-}
-
-pub(crate) fn reciprocal(a: Complex<f64>) -> Complex<f64> {
-    let square = a.0 * a.0 + a.1 * a.1;
-    (a.0 / square, -a.1 / square)
+    v.iter().map(|x| x.norm_square()).sum::<f64>().sqrt()
 }

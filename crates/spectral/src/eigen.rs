@@ -42,7 +42,7 @@ const MAX_DENSE: usize = 250;
 /// An eigenvalue of a block with its algebraic multiplicity there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BlockEigenvalue {
-    /// The value as (real, imaginary).
+    /// The value.
     pub value: Complex<f64>,
     /// The algebraic multiplicity in the block.
     pub multiplicity: usize,
@@ -60,10 +60,6 @@ pub struct Eigenspace {
     pub left: Vec<Vec<Complex<f64>>>,
 }
 
-pub(crate) fn modulus(value: Complex<f64>) -> f64 {
-    value.0.hypot(value.1)
-}
-
 impl Block<f64> {
     /// The eigenvalues by falling modulus, equal ones merged.
     ///
@@ -72,11 +68,7 @@ impl Block<f64> {
     pub fn eigenvalues(&self) -> Result<Vec<BlockEigenvalue>, Error> {
         match self {
             Block::Real(matrix) => eigenvalues(matrix.rows(), |i, j| matrix[(i, j)], f64::abs),
-            Block::Complex(matrix) => eigenvalues(
-                matrix.rows(),
-                |i, j| c64::new(matrix[(i, j)].0, matrix[(i, j)].1),
-                |entry| entry.norm(),
-            ),
+            Block::Complex(matrix) => eigenvalues(matrix.rows(), |i, j| to_faer(matrix[(i, j)]), |entry| entry.norm()),
         }
     }
 
@@ -86,8 +78,8 @@ impl Block<f64> {
     /// [`Error::NotAnEigenvalue`] if `S - value` is regular, [`Error::Decomposition`] as above.
     pub fn eigenspace(&self, value: Complex<f64>, fourier: usize) -> Result<Eigenspace, Error> {
         match self.shifted(value) {
-            Shifted::Real(matrix) => eigenspace(matrix, value, fourier, |entry| (entry, 0.0)),
-            Shifted::Complex(matrix) => eigenspace(matrix, value, fourier, |entry| (entry.re, entry.im)),
+            Shifted::Real(matrix) => eigenspace(matrix, value, fourier, Complex::real),
+            Shifted::Complex(matrix) => eigenspace(matrix, value, fourier, from_faer),
         }
     }
 
@@ -114,7 +106,7 @@ impl Block<f64> {
         if let Some(core) = self.core_for(value) {
             return core.jordan_sizes(value);
         }
-        if self.size() > MAX_DENSE && value == (0.0, 0.0) {
+        if self.size() > MAX_DENSE && value == Complex::zero() {
             return Ok(self.nilpotent_sizes());
         }
         let shifted = match self.shifted(value) {
@@ -124,7 +116,7 @@ impl Block<f64> {
         let mut power = shifted.clone();
         let mut kernels = vec![0];
         loop {
-            let kernel = nullity(power.clone(), (0.0, 0.0))?;
+            let kernel = nullity(power.clone(), Complex::zero())?;
             let known = kernels[kernels.len() - 1];
             if kernel <= known || kernels.len() > shifted.nrows() {
                 break;
@@ -138,20 +130,28 @@ impl Block<f64> {
     /// `S - value`.
     fn shifted(&self, value: Complex<f64>) -> Shifted {
         match self {
-            Block::Real(matrix) if value.1 == 0.0 => {
+            Block::Real(matrix) if value.im == 0.0 => {
                 Shifted::Real(Mat::from_fn(matrix.rows(), matrix.rows(), |i, j| {
-                    matrix[(i, j)] - if i == j { value.0 } else { 0.0 }
+                    matrix[(i, j)] - if i == j { value.re } else { 0.0 }
                 }))
             }
             _ => {
                 let matrix = self.to_complex();
                 Shifted::Complex(Mat::from_fn(matrix.rows(), matrix.rows(), |i, j| {
-                    let shift = if i == j { value } else { (0.0, 0.0) };
-                    c64::new(matrix[(i, j)].0 - shift.0, matrix[(i, j)].1 - shift.1)
+                    let shift = if i == j { value } else { Complex::zero() };
+                    to_faer(matrix[(i, j)] - shift)
                 }))
             }
         }
     }
+}
+
+pub(crate) fn to_faer(value: Complex<f64>) -> c64 {
+    c64::new(value.re, value.im)
+}
+
+fn from_faer(value: c64) -> Complex<f64> {
+    Complex::new(value.re, value.im)
 }
 
 enum Shifted {
@@ -189,17 +189,17 @@ fn eigenvalues<T: ComplexField<Real = f64> + Copy>(
             .map(|i| (0..component.len()).map(|j| norm(part[(i, j)])).sum::<f64>())
             .fold(0.0, f64::max);
         let values = part.eigenvalues().map_err(|_| failure.clone())?;
-        for cluster in clusters(values.iter().map(|v| (v.re, v.im)).collect(), EQUAL * scale) {
+        for cluster in clusters(values.iter().copied().map(from_faer).collect(), EQUAL * scale) {
             let known = all
                 .iter_mut()
-                .find(|known| distance(known.value, cluster.value) <= MERGED * largest.max(modulus(cluster.value)));
+                .find(|known| distance(known.value, cluster.value) <= MERGED * largest.max(cluster.value.modulus()));
             match known {
                 Some(known) => known.multiplicity += cluster.multiplicity,
                 None => all.push(cluster),
             }
         }
     }
-    if all.iter().any(|e| !modulus(e.value).is_finite()) {
+    if all.iter().any(|e| !e.value.modulus().is_finite()) {
         return Err(failure);
     }
     all.sort_by(|a, b| order(a.value, b.value));
@@ -207,15 +207,15 @@ fn eigenvalues<T: ComplexField<Real = f64> + Copy>(
 }
 
 fn distance(a: Complex<f64>, b: Complex<f64>) -> f64 {
-    (a.0 - b.0).hypot(a.1 - b.1)
+    (a - b).modulus()
 }
 
 /// Falling modulus; equal moduli with the larger real part, then the larger imaginary part first.
 pub(crate) fn order(a: Complex<f64>, b: Complex<f64>) -> std::cmp::Ordering {
-    modulus(b)
-        .total_cmp(&modulus(a))
-        .then(b.0.total_cmp(&a.0))
-        .then(b.1.total_cmp(&a.1))
+    b.modulus()
+        .total_cmp(&a.modulus())
+        .then(b.re.total_cmp(&a.re))
+        .then(b.im.total_cmp(&a.im))
 }
 
 /// Merges values that are linked by chains of steps up to `radius` into their means. A real matrix's clusters
@@ -227,13 +227,11 @@ fn clusters(values: Vec<Complex<f64>>, radius: f64) -> Vec<BlockEigenvalue> {
         .into_iter()
         .map(|members| {
             let count = members.len() as f64;
-            let sum = members
-                .iter()
-                .fold((0.0, 0.0), |sum, &i| (sum.0 + values[i].0, sum.1 + values[i].1));
-            let mean: Complex<f64> = (sum.0 / count, sum.1 / count);
-            let real = mean.1.abs() <= f64::EPSILON * count * modulus(mean).max(radius / EQUAL);
+            let sum = members.iter().fold(Complex::zero(), |sum, &i| sum + values[i]);
+            let mean = sum.map(|part| part / count);
+            let real = mean.im.abs() <= f64::EPSILON * count * mean.modulus().max(radius / EQUAL);
             BlockEigenvalue {
-                value: if real { (mean.0, 0.0) } else { mean },
+                value: if real { Complex::real(mean.re) } else { mean },
                 multiplicity: members.len(),
             }
         })
@@ -250,7 +248,7 @@ fn rank(singular: &[f64], value: Complex<f64>) -> Result<usize, Error> {
             largest,
         });
     }
-    let scale = largest.max(value.0.hypot(value.1));
+    let scale = largest.max(value.modulus());
     Ok(singular.iter().filter(|&&s| s > NULL * scale).count())
 }
 
@@ -274,11 +272,11 @@ fn eigenspace<T: ComplexField<Real = f64> + Copy>(
         size,
         largest: f64::NAN,
     })?;
-    let singular: Vec<f64> = (0..size).map(|i| pair(svd.S().column_vector()[i]).0).collect();
+    let singular: Vec<f64> = (0..size).map(|i| pair(svd.S().column_vector()[i]).re).collect();
     let rank = rank(&singular, value)?;
     if rank == size {
         return Err(Error::NotAnEigenvalue {
-            value: value.0,
+            value: value.re,
             fourier,
             gap: singular[size - 1],
         });
@@ -287,7 +285,7 @@ fn eigenspace<T: ComplexField<Real = f64> + Copy>(
     let column = |matrix: faer::MatRef<'_, T>, j: usize, sign: f64| -> Vec<Complex<f64>> {
         (0..size)
             .map(|i| pair(matrix[(i, j)]))
-            .map(|(re, im)| (re, sign * im))
+            .map(|entry| Complex::new(entry.re, sign * entry.im))
             .collect()
     };
     Ok(Eigenspace {
@@ -325,10 +323,18 @@ mod tests {
         let scattered = block.eigenvalues().unwrap();
         // index 3 is scattered by eps^(1/3), which is beyond what EQUAL merges: reported as found, never as a
         // wrong vector
-        assert!(scattered.iter().all(|e| distance(e.value, (0.5, 0.0)) < 1e-2));
-        let space = block.eigenspace((0.5, 0.0), 0).unwrap();
+        assert!(
+            scattered
+                .iter()
+                .all(|e| distance(e.value, Complex::new(0.5, 0.0)) < 1e-2)
+        );
+        let space = block.eigenspace(Complex::real(0.5), 0).unwrap();
         assert_eq!((space.right.len(), space.left.len()), (1, 1));
-        let product: f64 = space.left[0].iter().zip(&space.right[0]).map(|(l, r)| l.0 * r.0).sum();
+        let product: f64 = space.left[0]
+            .iter()
+            .zip(&space.right[0])
+            .map(|(l, r)| l.re * r.re)
+            .sum();
         assert!(
             product.abs() < 1e-10,
             "left and right vectors of a defective eigenvalue are orthogonal"
@@ -351,8 +357,8 @@ mod tests {
         let block = real(&[&[1.5, 1.0], &[-1.0, -0.5]]);
         let values = block.eigenvalues().unwrap();
         assert_eq!(values.len(), 1);
-        assert!(values[0].multiplicity == 2 && distance(values[0].value, (0.5, 0.0)) < 1e-15);
-        assert_eq!(block.eigenspace((0.5, 0.0), 0).unwrap().right.len(), 1);
+        assert!(values[0].multiplicity == 2 && distance(values[0].value, Complex::new(0.5, 0.0)) < 1e-15);
+        assert_eq!(block.eigenspace(Complex::real(0.5), 0).unwrap().right.len(), 1);
     }
 
     #[test]
@@ -362,11 +368,11 @@ mod tests {
         assert_eq!(
             values,
             [BlockEigenvalue {
-                value: (0.0, 0.0),
+                value: Complex::zero(),
                 multiplicity: 6
             }]
         );
-        assert_eq!(block.eigenspace((0.0, 0.0), 0).unwrap().right.len(), 1);
+        assert_eq!(block.eigenspace(Complex::real(0.0), 0).unwrap().right.len(), 1);
     }
 
     #[test]
@@ -374,13 +380,13 @@ mod tests {
         let rotation = real(&[&[0.0, -0.5], &[0.5, 0.0]]);
         let values = rotation.eigenvalues().unwrap();
         assert_eq!(values.len(), 2);
-        assert!(distance(values[0].value, (0.0, 0.5)) < 1e-15);
+        assert!(distance(values[0].value, Complex::new(0.0, 0.5)) < 1e-15);
         let space = rotation.eigenspace(values[0].value, 0).unwrap();
         assert_eq!(space.right.len(), 1);
         let identity = real(&[&[0.25, 0.0], &[0.0, 0.25]]);
-        assert_eq!(identity.eigenspace((0.25, 0.0), 0).unwrap().right.len(), 2);
+        assert_eq!(identity.eigenspace(Complex::real(0.25), 0).unwrap().right.len(), 2);
         assert!(matches!(
-            identity.eigenspace((0.3, 0.0), 0),
+            identity.eigenspace(Complex::real(0.3), 0),
             Err(Error::NotAnEigenvalue { .. })
         ));
     }
@@ -424,12 +430,12 @@ mod tests {
             expected.sort_by(|a, b| b.abs().total_cmp(&a.abs()));
             let mut found: Vec<f64> = Vec::new();
             for e in block.eigenvalues().unwrap() {
-                found.extend(std::iter::repeat_n(e.value.0, e.multiplicity));
+                found.extend(std::iter::repeat_n(e.value.re, e.multiplicity));
                 let Ok(space) = block.eigenspace(e.value, 0) else { continue };
                 for r in &space.right {
                     for i in 0..5 {
-                        let image: f64 = (0..5).map(|j| s[(i, j)] * r[j].0).sum();
-                        prop_assert!((image - e.value.0 * r[i].0).abs() < 1e-7);
+                        let image: f64 = (0..5).map(|j| s[(i, j)] * r[j].re).sum();
+                        prop_assert!((image - e.value.re * r[i].re).abs() < 1e-7);
                     }
                 }
             }

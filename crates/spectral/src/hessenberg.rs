@@ -7,11 +7,8 @@
 
 use crate::Matrix;
 use crate::extended::{Extended, UNIT};
-use eigenring_scheme::Scalar;
+use eigenring_scheme::{Complex, Scalar};
 use std::ops::{Add, Div, Mul, Sub};
-
-/// An eigenvalue as (real, imaginary).
-pub(crate) type Value = (Extended, Extended);
 
 /// Steps per eigenvalue that are waited for; three are usual.
 const STEPS: usize = 60;
@@ -70,7 +67,7 @@ impl Hessenberg {
     }
 
     /// The eigenvalues in no particular order; `None` if the iteration does not converge.
-    pub fn eigenvalues(&self) -> Option<Vec<Value>> {
+    pub fn eigenvalues(&self) -> Option<Vec<Complex<Extended>>> {
         let mut h = self.entries.clone();
         let n = h.rows();
         let norm = (0..n)
@@ -91,7 +88,7 @@ impl Hessenberg {
                 first -= 1;
             }
             if first == last {
-                values.push((h[(last, last)] + shifted, zero()));
+                values.push(Complex::real(h[(last, last)] + shifted));
                 (end, steps) = (last, 0);
                 continue;
             }
@@ -104,9 +101,9 @@ impl Hessenberg {
                 if q.to_f64() >= 0.0 {
                     let z = if p.to_f64() >= 0.0 { p + root } else { p - root };
                     let other = if z.to_f64() == 0.0 { x } else { x - w / z };
-                    values.extend([(x + z, zero()), (other, zero())]);
+                    values.extend([x + z, other].map(Complex::real));
                 } else {
-                    values.extend([(x + p, root), (x + p, -root)]);
+                    values.extend([root, -root].map(|im| Complex::new(x + p, im)));
                 }
                 (end, steps) = (last - 1, 0);
                 continue;
@@ -128,7 +125,7 @@ impl Hessenberg {
         }
         values
             .iter()
-            .all(|v| v.0.to_f64().is_finite() && v.1.to_f64().is_finite())
+            .all(|v| v.re.to_f64().is_finite() && v.im.to_f64().is_finite())
             .then_some(values)
     }
 
@@ -140,11 +137,11 @@ impl Hessenberg {
     }
 
     /// About the smallest singular value of the matrix less `value`, never below it.
-    pub fn distance(&self, value: Value) -> f64 {
-        if value.1.to_f64() == 0.0 {
-            smallest(&self.entries.map(|x| x), value.0)
+    pub fn distance(&self, value: Complex<Extended>) -> f64 {
+        if value.im.to_f64() == 0.0 {
+            smallest(&self.entries, value.re)
         } else {
-            smallest(&self.entries.map(|x| Pair(x, zero())), Pair(value.0, value.1))
+            smallest(&self.entries.map(Complex::real), value)
         }
     }
 }
@@ -260,46 +257,12 @@ impl Number for Extended {
     }
 }
 
-/// A complex number.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Pair(pub Extended, pub Extended);
-
-impl Add for Pair {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Pair(self.0 + other.0, self.1 + other.1)
-    }
-}
-
-impl Sub for Pair {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        Pair(self.0 - other.0, self.1 - other.1)
-    }
-}
-
-impl Mul for Pair {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        Pair(self.0 * other.0 - self.1 * other.1, self.0 * other.1 + self.1 * other.0)
-    }
-}
-
-impl Div for Pair {
-    type Output = Self;
-    fn div(self, other: Self) -> Self {
-        let square = other.0 * other.0 + other.1 * other.1;
-        let Pair(re, im) = self * Pair(other.0, -other.1);
-        Pair(re / square, im / square)
-    }
-}
-
-impl Number for Pair {
+impl Number for Complex<Extended> {
     fn size(self) -> f64 {
-        self.0.to_f64().hypot(self.1.to_f64())
+        self.map(Extended::to_f64).modulus()
     }
     fn real(value: f64) -> Self {
-        Pair(Extended::exact(value), zero())
+        Complex::real(Extended::exact(value))
     }
 }
 

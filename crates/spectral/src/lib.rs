@@ -34,6 +34,7 @@ mod matrix;
 mod natural;
 mod repeated;
 mod rings;
+mod second_order;
 mod spectrum;
 mod system;
 
@@ -45,5 +46,6 @@ pub use maps::{Graph, Maps};
 pub use matrix::{Block, Matrix, fourier_block, fourier_blocks, local_matrix, numbering};
 pub use natural::{Natural, NaturalMode};
 pub use rings::{Sufficient, outer};
+pub use second_order::SecondOrder;
 pub use spectrum::{Eigenvalue, Spectrum};
 pub use system::{LocalSystem, Mode};

@@ -10,8 +10,8 @@
 //! All maps here have `E_0 = 1` (the cup too, the face mode `F_0 = 1`): other normalisations are factors. z
 //! as a function of (x, y) has the derivatives of [`Graph`], by the chain rule through the Jacobian.
 
-use crate::{Annulus, Error, LocalSystem, Mode, Natural, PatchIndex};
-use eigenring_scheme::Scheme;
+use crate::{Annulus, Error, LocalSystem, Mode, Natural, PatchIndex, SecondOrder};
+use eigenring_scheme::{Complex, Scheme};
 use eigenring_spline::Jet;
 
 /// The maps of a scheme: nets over the annulus's numbering.
@@ -78,11 +78,11 @@ impl Graph {
 }
 
 fn real(mode: &Mode) -> Vec<f64> {
-    mode.values.iter().map(|v| v.0).collect()
+    mode.values.iter().map(|v| v.re).collect()
 }
 
 fn imaginary(mode: &Mode) -> Vec<f64> {
-    mode.values.iter().map(|v| v.1).collect()
+    mode.values.iter().map(|v| v.im).collect()
 }
 
 impl Maps {
@@ -105,46 +105,43 @@ impl Maps {
         if !system.symmetric() {
             return Err(Error::NotSymmetric);
         }
-        let n = system.valence();
         // the real eigenvalues of a block, by falling modulus, each as often as it has eigenvectors to give
         let eigenvalues = |k: usize| -> Result<Vec<f64>, Error> {
             Ok(system.blocks()[k]
                 .eigenvalues()?
                 .iter()
-                .filter(|e| e.value.1 == 0.0)
-                .map(|e| e.value.0)
+                .filter(|e| e.value.im == 0.0)
+                .map(|e| e.value.re)
                 .collect())
         };
-        let missing = |fourier| Error::Scaling { value: 0.0, fourier };
         let Natural {
             lambda,
             points: natural,
         } = system.natural()?;
-        let cup_value = *eigenvalues(0)?.get(1).ok_or(missing(0))?;
-        let cup = system.single(0, cup_value)?;
-        let (saddles, saddle_values) = match n {
-            3 => {
-                let mu = *eigenvalues(1)?.get(1).ok_or(missing(1))?;
-                let mode = system.single(2, mu)?;
-                ([real(&mode), imaginary(&mode)], [mu, mu])
-            }
-            4 => {
-                let first = *eigenvalues(2)?.first().ok_or(missing(2))?;
-                let mut modes = system.modes(2, (first, 0.0))?;
-                let mut values = [first, first];
-                if modes.len() == 1 {
-                    values[1] = *eigenvalues(2)?.get(1).ok_or(missing(2))?;
-                    modes.push(system.single(2, values[1])?);
-                }
-                ([real(&modes[0]), real(&modes[1])], values)
-            }
-            _ => {
-                let mu = *eigenvalues(2)?.first().ok_or(missing(2))?;
-                let mode = system.single(2, mu)?;
-                ([real(&mode), imaginary(&mode)], [mu, mu])
-            }
+        let value = |of: SecondOrder, which: usize| -> Result<f64, Error> {
+            let values = eigenvalues(of.block)?;
+            let found = values.get(of.before + which).copied();
+            found.ok_or(Error::Scaling {
+                value: 0.0,
+                fourier: of.block,
+            })
         };
-        let [re, im] = saddles;
+        let [cups, saddles] = SecondOrder::of(system.valence());
+        let cup_value = value(cups, 0)?;
+        let cup = system.single(cups.block, cup_value)?;
+        let first = value(saddles, 0)?;
+        let mut saddle_values = [first, first];
+        let [re, im] = if saddles.copies == 1 {
+            let mode = system.single(2, first)?;
+            [real(&mode), imaginary(&mode)]
+        } else {
+            let mut modes = system.modes(2, Complex::real(first))?;
+            if modes.len() == 1 {
+                saddle_values[1] = value(saddles, 1)?;
+                modes.push(system.single(2, saddle_values[1])?);
+            }
+            [real(&modes[0]), real(&modes[1])]
+        };
         Ok(Maps {
             annulus,
             lambda,
@@ -288,7 +285,7 @@ mod tests {
             for scheme in [catmull_clark::<f64>(valence).unwrap(), doo_sabin(valence).unwrap()] {
                 let annulus = Annulus::new(&scheme).unwrap();
                 let system = LocalSystem::new(scheme.limit(), annulus.numbering.rings).unwrap();
-                let lambda = system.blocks()[1].eigenvalues().unwrap()[0].value.0;
+                let lambda = system.blocks()[1].eigenvalues().unwrap()[0].value.re;
                 let mode = system.single(1, lambda).unwrap();
                 for (patch, u, v) in points(&annulus) {
                     let (x, y) = (

@@ -18,7 +18,7 @@ pub struct Matrix<T> {
     entries: Vec<T>,
 }
 
-impl<T: Copy> Matrix<T> {
+impl<T: Clone> Matrix<T> {
     /// The matrix with the entries `f(row, column)`.
     pub fn from_fn(rows: usize, columns: usize, mut f: impl FnMut(usize, usize) -> T) -> Self {
         let entries = (0..rows * columns).map(|i| f(i / columns, i % columns)).collect();
@@ -69,7 +69,7 @@ impl<T: Copy> Matrix<T> {
         Matrix {
             rows: self.rows,
             columns: self.columns,
-            entries: self.entries.iter().map(|&entry| f(entry)).collect(),
+            entries: self.entries.iter().cloned().map(f).collect(),
         }
     }
 }
@@ -96,7 +96,7 @@ pub enum Block<S> {
     Complex(Matrix<Complex<S>>),
 }
 
-impl<S: Scalar + Copy> Block<S> {
+impl<S: Scalar> Block<S> {
     /// The number of rows and columns.
     pub fn size(&self) -> usize {
         match self {
@@ -108,7 +108,7 @@ impl<S: Scalar + Copy> Block<S> {
     /// The block with complex entries, whatever it was.
     pub fn to_complex(&self) -> Matrix<Complex<S>> {
         match self {
-            Block::Real(matrix) => matrix.map(|entry| (entry, S::zero())),
+            Block::Real(matrix) => matrix.map(Complex::real),
             Block::Complex(matrix) => matrix.clone(),
         }
     }
@@ -120,7 +120,7 @@ impl Block<f64> {
         let lift = Extended::exact;
         match self {
             Block::Real(matrix) => Block::Real(matrix.map(lift)),
-            Block::Complex(matrix) => Block::Complex(matrix.map(|(re, im)| (lift(re), lift(im)))),
+            Block::Complex(matrix) => Block::Complex(matrix.map(|entry| entry.map(lift))),
         }
     }
 }
@@ -138,7 +138,7 @@ pub fn numbering<S: Scalar>(level: &Level<S>, rings: usize) -> Numbering {
 ///
 /// # Errors
 /// [`Error::Scheme`] if a refined point of these rings reads a control point beyond them.
-pub fn local_matrix<S: Scalar + Copy>(level: &Level<S>, rings: usize) -> Result<Matrix<S>, Error> {
+pub fn local_matrix<S: Scalar>(level: &Level<S>, rings: usize) -> Result<Matrix<S>, Error> {
     let numbering = numbering(level, rings);
     let rows = refine(level, &DenseNet { numbering }, &numbering.sites())?;
     Ok(Matrix::from_rows(rows, numbering.count()))
@@ -148,7 +148,7 @@ pub fn local_matrix<S: Scalar + Copy>(level: &Level<S>, rings: usize) -> Result<
 ///
 /// # Errors
 /// [`Error::NotSymmetric`] if the rules differ from sector to sector; otherwise as [`local_matrix`].
-pub fn fourier_block<S: Scalar + Copy>(level: &Level<S>, rings: usize, index: usize) -> Result<Block<S>, Error> {
+pub fn fourier_block<S: Scalar>(level: &Level<S>, rings: usize, index: usize) -> Result<Block<S>, Error> {
     Assembly::new(level, rings)?.block(index)
 }
 
@@ -156,7 +156,7 @@ pub fn fourier_block<S: Scalar + Copy>(level: &Level<S>, rings: usize, index: us
 ///
 /// # Errors
 /// As [`fourier_block`].
-pub fn fourier_blocks<S: Scalar + Copy>(level: &Level<S>, rings: usize) -> Result<Vec<Block<S>>, Error> {
+pub fn fourier_blocks<S: Scalar>(level: &Level<S>, rings: usize) -> Result<Vec<Block<S>>, Error> {
     let assembly = Assembly::new(level, rings)?;
     (0..=level.fan().sectors() / 2)
         .map(|index| assembly.block(index))
@@ -173,7 +173,7 @@ pub(crate) struct Assembly<S> {
     plan: Plan<S>,
 }
 
-impl<S: Scalar + Copy> Assembly<S> {
+impl<S: Scalar> Assembly<S> {
     pub fn new(level: &Level<S>, rings: usize) -> Result<Self, Error> {
         if !level.is_rotation_symmetric() {
             return Err(Error::NotSymmetric);
@@ -202,7 +202,7 @@ impl<S: Scalar + Copy> Assembly<S> {
         });
         let matrix = Matrix::from_rows(rows.collect(), net.size());
         Ok(if self.mirror {
-            Block::Real(matrix.map(|(re, _)| re))
+            Block::Real(matrix.map(|entry| entry.re))
         } else {
             Block::Complex(matrix)
         })
@@ -216,10 +216,6 @@ mod tests {
     use eigenring_scheme::lambda::{Bounds, Domain, Relaxation};
     use eigenring_scheme::{PointNet, Scheme, Symmetry};
 
-    fn times(a: Complex<f64>, b: Complex<f64>) -> Complex<f64> {
-        (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
-    }
-
     /// `sum_j M[row of sector 0, column of sector j] w^{k j}`: the block by the discrete Fourier transform of
     /// the matrix.
     fn transformed(matrix: &Matrix<f64>, numbering: Numbering, index: usize) -> Matrix<Complex<f64>> {
@@ -229,12 +225,12 @@ mod tests {
         let position = |site: Site, by: usize| numbering.index(site.rotated(numbering.fan, by as i64)).unwrap();
         Matrix::from_fn(sites.len(), sites.len(), |row, column| {
             if sites[column] == Site::CENTRE {
-                return (matrix[(position(sites[row], 0), 0)], 0.0);
+                return Complex::real(matrix[(position(sites[row], 0), 0)]);
             }
-            (0..n).fold((0.0, 0.0), |sum, j| {
+            (0..n).fold(Complex::zero(), |sum, j| {
                 let angle = std::f64::consts::TAU * ((index * j) % n) as f64 / n as f64;
                 let entry = matrix[(position(sites[row], 0), position(sites[column], j))];
-                (sum.0 + entry * angle.cos(), sum.1 + entry * angle.sin())
+                sum + Complex::new(angle.cos(), angle.sin()).scale(entry)
             })
         })
     }
@@ -244,24 +240,21 @@ mod tests {
         let net = FourierNet::<f64>::new(numbering, index, true).unwrap();
         let sites = net.rows();
         Matrix::from_fn(sites.len(), sites.len(), |row, column| {
-            let mut unknowns = vec![(0.0, 0.0); sites.len()];
-            unknowns[column] = (1.0, 0.0);
+            let mut unknowns = vec![Complex::zero(); sites.len()];
+            unknowns[column] = Complex::one();
             net.mode(&unknowns, sites[row]).unwrap()
         })
     }
 
     fn product(a: &Matrix<Complex<f64>>, b: &Matrix<Complex<f64>>) -> Matrix<Complex<f64>> {
         Matrix::from_fn(a.rows(), b.columns(), |i, j| {
-            (0..a.columns()).fold((0.0, 0.0), |sum, k| {
-                let term = times(a[(i, k)], b[(k, j)]);
-                (sum.0 + term.0, sum.1 + term.1)
-            })
+            (0..a.columns()).fold(Complex::zero(), |sum, k| sum + a[(i, k)] * b[(k, j)])
         })
     }
 
     fn distance(a: &Matrix<Complex<f64>>, b: &Matrix<Complex<f64>>) -> f64 {
         let pairs = a.entries().iter().zip(b.entries());
-        pairs.map(|(a, b)| (a.0 - b.0).hypot(a.1 - b.1)).fold(0.0, f64::max)
+        pairs.map(|(a, b)| (*a - *b).modulus()).fold(0.0, f64::max)
     }
 
     fn schemes(valence: usize) -> Vec<Scheme<f64>> {

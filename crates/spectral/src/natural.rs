@@ -33,12 +33,12 @@ impl LocalSystem {
             return Err(Error::NotSymmetric);
         }
         let eigenvalues = self.blocks()[1].eigenvalues()?;
-        let real = eigenvalues.iter().find(|eigenvalue| eigenvalue.value.1 == 0.0);
+        let real = eigenvalues.iter().find(|eigenvalue| eigenvalue.value.im == 0.0);
         let lambda = real
-            .map(|eigenvalue| eigenvalue.value.0)
+            .map(|eigenvalue| eigenvalue.value.re)
             .ok_or(Error::Scaling { value: 0.0, fourier: 1 })?;
         let mode = self.single(1, lambda)?;
-        let (x, y) = mode.values.into_iter().unzip();
+        let (x, y) = mode.values.into_iter().map(|z| (z.re, z.im)).unzip();
         Ok(Natural { lambda, points: [x, y] })
     }
 }
@@ -56,7 +56,7 @@ impl NaturalMode {
     /// # Errors
     /// Those of [`fourier_block`]; [`Error::Multiplicity`] unless the eigenvalue has one eigenvector.
     pub fn new(level: &Level<f64>, rings: usize, lambda: f64) -> Result<Self, Error> {
-        let space = fourier_block(level, rings, 1)?.eigenspace((lambda, 0.0), 1)?;
+        let space = fourier_block(level, rings, 1)?.eigenspace(Complex::real(lambda), 1)?;
         let [unknowns] = space.right.as_slice() else {
             return Err(Error::Multiplicity {
                 value: lambda,
@@ -76,8 +76,8 @@ impl NaturalMode {
     /// # Errors
     /// A site beyond the rings.
     pub fn at(&self, site: Site) -> Result<[f64; 2], Error> {
-        let (x, y) = self.net.mode(&self.unknowns, site)?;
-        Ok([x, y])
+        let point = self.net.mode(&self.unknowns, site)?;
+        Ok([point.re, point.im])
     }
 }
 

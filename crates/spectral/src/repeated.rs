@@ -12,9 +12,9 @@
 //! to `2^-53`, and what its rounding could make of one eigenvalue is one.
 
 use crate::components::strong_components;
-use crate::eigen::{modulus, order};
+use crate::eigen::order;
 use crate::extended::{Extended, UNIT};
-use crate::hessenberg::{Hessenberg, Number, Pair, Value};
+use crate::hessenberg::{Hessenberg, Number};
 use crate::{Block, EQUAL, Error, Matrix};
 use eigenring_scheme::{Complex, Scalar};
 use faer::{Mat, c64};
@@ -22,7 +22,7 @@ use faer::{Mat, c64};
 /// An eigenvalue of a block with its multiplicities there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Repeated {
-    /// The value as (real, imaginary).
+    /// The value.
     pub value: Complex<f64>,
     /// How often it is a root of the characteristic polynomial.
     pub algebraic: usize,
@@ -86,7 +86,7 @@ enum Part {
 /// Values that are taken as one.
 #[derive(Clone, Debug)]
 struct Cluster {
-    mean: Value,
+    mean: Complex<Extended>,
     count: usize,
     /// The parts that they come from.
     parts: Vec<usize>,
@@ -101,8 +101,8 @@ struct Cluster {
 pub(crate) fn repeated(block: &Block<Extended>, precision: Precision) -> Result<Vec<Repeated>, Error> {
     let size = block.size();
     let entry = |i: usize, j: usize| match block {
-        Block::Real(matrix) => Pair(matrix[(i, j)], Extended::default()),
-        Block::Complex(matrix) => Pair(matrix[(i, j)].0, matrix[(i, j)].1),
+        Block::Real(matrix) => Complex::real(matrix[(i, j)]),
+        Block::Complex(matrix) => matrix[(i, j)],
     };
     let places = || (0..size).flat_map(|i| (0..size).map(move |j| (i, j)));
     let largest = places().map(|(i, j)| entry(i, j).size()).fold(
@@ -133,11 +133,11 @@ pub(crate) fn repeated(block: &Block<Extended>, precision: Precision) -> Result<
             }
             Block::Complex(_) => {
                 let part = Mat::from_fn(n, n, |i, j| {
-                    let Pair(re, im) = entry(component[i], component[j]);
-                    c64::new(re.to_f64(), im.to_f64())
+                    let entry = entry(component[i], component[j]).map(Extended::to_f64);
+                    c64::new(entry.re, entry.im)
                 });
                 let values = part.eigenvalues().map_err(|_| failure())?;
-                let values = values.iter().map(|v| (Extended::exact(v.re), Extended::exact(v.im)));
+                let values = values.iter().map(|v| Complex::new(v.re, v.im).map(Extended::exact));
                 norm = norm.max(
                     (0..n)
                         .map(|i| (0..n).map(|j| part[(i, j)].norm()).sum())
@@ -167,38 +167,35 @@ pub(crate) fn repeated(block: &Block<Extended>, precision: Precision) -> Result<
     }
     for cluster in &mut clusters {
         // zeros are exact
-        if Pair(cluster.mean.0, cluster.mean.1).size() <= tolerance {
-            cluster.mean = Value::default();
+        if cluster.mean.size() <= tolerance {
+            cluster.mean = Complex::default();
         }
         // the mean of a conjugate pair, or of what rounding made one
-        if cluster.mean.1.size() <= tolerance && matches!(block, Block::Real(_)) {
-            cluster.mean.1 = Extended::default();
+        if cluster.mean.im.size() <= tolerance && matches!(block, Block::Real(_)) {
+            cluster.mean.im = Extended::default();
         }
     }
     clusters.sort_by(|a, b| {
-        let [x, y] = [a, b].map(|c| (c.mean.0.to_f64(), c.mean.1.to_f64()));
-        order(x, y).then((b.mean.0.abs() - a.mean.0.abs()).to_f64().total_cmp(&0.0))
+        let [x, y] = [a, b].map(|c| c.mean.map(Extended::to_f64));
+        order(x, y).then((b.mean.re.abs() - a.mean.re.abs()).to_f64().total_cmp(&0.0))
     });
     clusters
         .into_iter()
         .map(|cluster| {
-            let value = (cluster.mean.0.to_f64(), cluster.mean.1.to_f64());
+            let value = cluster.mean.map(Extended::to_f64);
             let geometric = match (cluster.count, block) {
                 (1, _) => 1,
                 (count, Block::Real(matrix)) => {
-                    let null = precision.null() * modulus(value).max(largest);
-                    let pivots = if cluster.mean.1.size() == 0.0 {
-                        pivots(matrix.map(|x| x), cluster.mean.0)
+                    let null = precision.null() * value.modulus().max(largest);
+                    let pivots = if cluster.mean.im.size() == 0.0 {
+                        pivots(matrix.clone(), cluster.mean.re)
                     } else {
-                        pivots(
-                            matrix.map(|x| Pair(x, Extended::default())),
-                            Pair(cluster.mean.0, cluster.mean.1),
-                        )
+                        pivots(matrix.map(Complex::real), cluster.mean)
                     };
                     pivots[size - count..].iter().filter(|&&pivot| pivot <= null).count()
                 }
                 (count, Block::Complex(matrix)) => {
-                    let doubles = matrix.map(|(re, im)| (re.to_f64(), im.to_f64()));
+                    let doubles = matrix.map(|entry| entry.map(Extended::to_f64));
                     Block::Complex(doubles).nullity(value)?.min(count)
                 }
             };
@@ -213,12 +210,13 @@ pub(crate) fn repeated(block: &Block<Extended>, precision: Precision) -> Result<
 
 impl Part {
     /// The smallest singular value of the part less a number; `None` if it is not found.
-    fn distance(&self, value: Value) -> Option<f64> {
+    fn distance(&self, value: Complex<Extended>) -> Option<f64> {
         match self {
             Part::Real(part) => Some(part.distance(value)),
             Part::Complex(part) => {
                 let n = part.nrows();
-                let value = c64::new(value.0.to_f64(), value.1.to_f64());
+                let value = value.map(Extended::to_f64);
+                let value = c64::new(value.re, value.im);
                 let shifted = Mat::from_fn(n, n, |i, j| if i == j { part[(i, j)] - value } else { part[(i, j)] });
                 shifted.singular_values().ok()?.last().copied()
             }
@@ -227,12 +225,12 @@ impl Part {
 }
 
 fn gap(a: &Cluster, b: &Cluster) -> f64 {
-    Pair(a.mean.0 - b.mean.0, a.mean.1 - b.mean.1).size()
+    (a.mean - b.mean).size()
 }
 
 /// Joins clusters, the closest first, as long as their mean is an eigenvalue of all parts that they come
 /// from.
-fn join(clusters: &mut Vec<Cluster>, mut is_eigenvalue: impl FnMut(usize, Value) -> bool) {
+fn join(clusters: &mut Vec<Cluster>, mut is_eigenvalue: impl FnMut(usize, Complex<Extended>) -> bool) {
     let close = |a: &Cluster, b: &Cluster| {
         let gap = gap(a, b);
         (gap <= a.reach.min(b.reach)).then_some(gap)
@@ -255,7 +253,7 @@ fn join(clusters: &mut Vec<Cluster>, mut is_eigenvalue: impl FnMut(usize, Value)
             let weight = |count: usize| Extended::ratio(count as i64, 1);
             (x * weight(a.count) + y * weight(b.count)) / weight(count)
         };
-        let mean = (mean(a.mean.0, b.mean.0), mean(a.mean.1, b.mean.1));
+        let mean = Complex::new(mean(a.mean.re, b.mean.re), mean(a.mean.im, b.mean.im));
         let mut parts = [a.parts.clone(), b.parts.clone()].concat();
         parts.sort_unstable();
         parts.dedup();

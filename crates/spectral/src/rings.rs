@@ -14,7 +14,6 @@
 //! defective. The rule: **one ring more is taken unless all eigenvalues outside are strictly below the
 //! subsubdominant one**, and so on until none is left.
 
-use crate::eigen::modulus;
 use crate::{Block, Error, LocalSystem, Matrix, fourier_blocks, local_matrix, numbering};
 use eigenring_scheme::Level;
 
@@ -67,7 +66,7 @@ pub fn outer(level: &Level<f64>, rings: usize) -> Result<f64, Error> {
         // block 0 of a vertex net begins with the centre
         let centre = usize::from(level.is_rotation_symmetric() && index == 0) * (1 - level.lattice().parity() as usize);
         for eigenvalue in block.trailing(inner + centre).eigenvalues()? {
-            largest = largest.max(modulus(eigenvalue.value));
+            largest = largest.max(eigenvalue.value.modulus());
         }
     }
     Ok(largest)

@@ -3,13 +3,13 @@
 use crate::eigen::order;
 use crate::matrix::Assembly;
 use crate::repeated::{Precision, Repeated, repeated};
-use crate::{Block, BlockEigenvalue, Error, Extended, LocalSystem, local_matrix};
+use crate::{Block, BlockEigenvalue, Error, Extended, LocalSystem, SecondOrder, local_matrix};
 use eigenring_scheme::{Complex, Level, Numbering};
 
 /// An eigenvalue of the local matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eigenvalue {
-    /// The value as (real, imaginary).
+    /// The value.
     pub value: Complex<f64>,
     /// The Fourier index. Blocks k and N-k have conjugate spectra: a value that is in both is listed once,
     /// with `k <= N/2`; one that is not real may be in one of them only, without mirror symmetry. `None` for
@@ -27,7 +27,7 @@ pub struct Eigenvalue {
 impl Eigenvalue {
     /// The modulus.
     pub fn modulus(&self) -> f64 {
-        self.value.0.hypot(self.value.1)
+        self.value.modulus()
     }
 
     /// Whether there are fewer eigenvectors than the multiplicity; false where these were not counted.
@@ -42,8 +42,7 @@ impl Eigenvalue {
 }
 
 fn are_close(a: Complex<f64>, b: Complex<f64>) -> bool {
-    let size = a.0.hypot(a.1).max(b.0.hypot(b.1));
-    (a.0 - b.0).hypot(a.1 - b.1) <= SAME * size
+    (a - b).modulus() <= SAME * a.modulus().max(b.modulus())
 }
 
 /// Eigenvalues of different blocks closer than this, relatively, are the same: they come from independent
@@ -132,7 +131,7 @@ impl LocalSystem {
             let copies = 1 + usize::from(twice);
             let list = of(k, block)?;
             for &(value, multiplicity, geometric) in &list {
-                let conjugate = (value.0, -value.1);
+                let conjugate = value.conj();
                 let mut add = |value, index: usize, copies: usize| {
                     eigenvalues.push(Eigenvalue {
                         value,
@@ -143,7 +142,7 @@ impl LocalSystem {
                     });
                 };
                 // block N-k is conjugate: without a mirror symmetry it may have a value that block k has not
-                if twice && value.1 != 0.0 && !list.iter().any(|other| are_close(other.0, conjugate)) {
+                if twice && value.im != 0.0 && !list.iter().any(|other| are_close(other.0, conjugate)) {
                     add(value, k, 1);
                     add(conjugate, n - k, 1);
                 } else {
@@ -153,7 +152,7 @@ impl LocalSystem {
         }
         eigenvalues.sort_by(|a, b| order(a.value, b.value).then(a.fourier.cmp(&b.fourier)));
         // equal or conjugate up to rounding: by Fourier index
-        let upper = |e: &Eigenvalue| (e.value.0, e.value.1.abs());
+        let upper = |e: &Eigenvalue| Complex::new(e.value.re, e.value.im.abs());
         let mut start = 0;
         for end in 1..=eigenvalues.len() {
             if end == eigenvalues.len() || !are_close(upper(&eigenvalues[end]), upper(&eigenvalues[start])) {
@@ -198,10 +197,10 @@ fn multiplicities(
             known.push((value, multiplicity, Some(geometric)));
         }
     }
-    known.retain(|e| e.0 != (0.0, 0.0));
+    known.retain(|e| e.0 != Complex::zero());
     let zeros = doubles.size() - known.iter().map(|e| e.1).sum::<usize>();
     if zeros > 0 {
-        known.push(((0.0, 0.0), zeros, Some(doubles.sparse_nullity().clamp(1, zeros))));
+        known.push((Complex::zero(), zeros, Some(doubles.sparse_nullity().clamp(1, zeros))));
     }
     Ok(known)
 }
@@ -264,14 +263,7 @@ impl Spectrum {
             if passed.is_some_and(|(first, expected)| first != expected.modulus()) {
                 return None;
             }
-            // both saddles are in block 2 at valence 4, and in block 1 = N-2 at valence 3
-            let wanted = match (index, valence) {
-                (0, _) | (1, 3) => 1,
-                (2, 4) => 2,
-                (2, _) => 1,
-                _ => 0,
-            };
-            for _ in 0..wanted {
+            for _ in 0..SecondOrder::copies_in(valence, index) {
                 mu = mu.min(moduli.next()?);
             }
             left.extend(moduli.next());
@@ -299,7 +291,7 @@ mod tests {
                 let count: usize = spectrum.eigenvalues.iter().map(|e| e.multiplicity).sum();
                 assert_eq!(count, system.numbering().count());
                 let subdominant = spectrum.subdominant().unwrap();
-                assert!((subdominant.value.0 - lambda).abs() < 1e-14);
+                assert!((subdominant.value.re - lambda).abs() < 1e-14);
                 assert_eq!((subdominant.fourier, subdominant.multiplicity), (Some(1), 2));
                 if rings == 3 {
                     let zero = spectrum.eigenvalues.iter().filter(|e| e.modulus() < 1e-15);
@@ -321,7 +313,7 @@ mod tests {
                     Some(1) => 0.5,
                     _ => 0.25,
                 };
-                assert!((e.value.0 - expected).abs() < 1e-15 && e.value.1 == 0.0);
+                assert!((e.value.re - expected).abs() < 1e-15 && e.value.im == 0.0);
             }
             let expected = if valence == 3 { 0.0 } else { 1.0 };
             assert!((spectrum.curvature_ratio().unwrap() - expected).abs() < 1e-14);
@@ -338,7 +330,7 @@ mod tests {
             for e in spectrum.eigenvalues.iter().filter(|e| e.fourier != Some(0)) {
                 let c = (std::f64::consts::TAU * e.fourier.unwrap() as f64 / n).cos();
                 let expected = u * (n * u + 2.0 * n - 4.0 + 4.0 * c) / (n * (1.0 + u) * (1.0 + u));
-                assert!((e.value.0 - expected).abs() < 1e-15);
+                assert!((e.value.re - expected).abs() < 1e-15);
             }
         }
     }
@@ -350,7 +342,7 @@ mod tests {
         // the outer ring has 1/4 in block 0 as well
         assert_eq!(spectrum.subdominant().unwrap().fourier, Some(0));
         let lambda = spectrum.eigenvalues.iter().find(|e| e.fourier == Some(1)).unwrap();
-        assert!((lambda.value.0 - 0.25).abs() < 1e-14);
+        assert!((lambda.value.re - 0.25).abs() < 1e-14);
         assert_eq!((lambda.multiplicity, lambda.geometric), (4, Some(2)));
     }
 }

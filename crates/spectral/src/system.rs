@@ -6,9 +6,9 @@
 //! along the numbering, the centre last. The functionals of an eigenspace are the left eigenvectors dual to
 //! its modes, `l_i . r_j = delta_ij`.
 
-use crate::echelon::{Dual, PIVOT, dual, length, reciprocal, times};
+use crate::echelon::{Dual, PIVOT, dual, length};
 use crate::{Block, Eigenvalue, Error, Matrix, Spectrum, fourier_blocks, local_matrix, numbering};
-use eigenring_scheme::{Complex, Fan, FourierNet, Lattice, Level, Numbering, Scalar, Site};
+use eigenring_scheme::{Complex, Fan, FourierNet, Lattice, Level, Numbering, Site};
 
 /// The local matrix of a level of refinement, in Fourier blocks if its rules are the same in all sectors.
 #[derive(Clone, Debug)]
@@ -140,15 +140,11 @@ impl LocalSystem {
                     |row, column| {
                         let target = index(points[row]);
                         if points[column] == Site::CENTRE {
-                            return (matrix[(target, 0)], 0.0);
+                            return Complex::real(matrix[(target, 0)]);
                         }
-                        (0..valence).fold((0.0, 0.0), |sum, j| {
+                        (0..valence).fold(Complex::zero(), |sum, j| {
                             let entry = matrix[(target, index(points[column].rotated(numbering.fan, j as i64)))];
-                            let (turn, n) = ((k * j) as i64, valence as i64);
-                            (
-                                sum.0 + entry * f64::cos_turn(turn, n),
-                                sum.1 + entry * f64::sin_turn(turn, n),
-                            )
+                            sum + Complex::turn((k * j) as i64, valence as i64).scale(entry)
                         })
                     },
                 )))
@@ -214,13 +210,12 @@ impl LocalSystem {
         }
         if fourier > n / 2 {
             // block N-k is the conjugate of block k
-            let conjugate = |(re, im): Complex<f64>| (re, -im);
-            let mut modes = self.modes(n - fourier, conjugate(value))?;
+            let mut modes = self.modes(n - fourier, value.conj())?;
             for mode in &mut modes {
                 mode.fourier = Some(fourier);
                 mode.value = value;
-                mode.values.iter_mut().for_each(|v| *v = conjugate(*v));
-                mode.functional.iter_mut().for_each(|v| *v = conjugate(*v));
+                mode.values.iter_mut().for_each(|v| *v = v.conj());
+                mode.functional.iter_mut().for_each(|v| *v = v.conj());
             }
             return Ok(modes);
         }
@@ -234,14 +229,14 @@ impl LocalSystem {
             // the unknowns of points off the spokes carry a phase: turn the mode so that the value at the
             // pivot is 1
             let at_pivot = net.mode(unknowns, rows[pivot])?;
-            let turned = at_pivot.0.hypot(at_pivot.1) > PIVOT;
+            let turned = at_pivot.modulus() > PIVOT;
             let (forth, back) = if turned {
-                (reciprocal(at_pivot), at_pivot)
+                (at_pivot.recip(), at_pivot)
             } else {
-                ((1.0, 0.0), (1.0, 0.0))
+                (Complex::one(), Complex::one())
             };
-            let value_at = |&site: &Site| Ok(times(net.mode(unknowns, site)?, forth));
-            let weight_at = |&site: &Site| Ok(times(net.functional(coefficients, site)?, back));
+            let value_at = |&site: &Site| Ok(net.mode(unknowns, site)? * forth);
+            let weight_at = |&site: &Site| Ok(net.functional(coefficients, site)? * back);
             modes.push(Mode {
                 value,
                 fourier: Some(fourier),
@@ -262,7 +257,7 @@ impl LocalSystem {
         let size = inner.size();
         let mut found = dual(&inner.eigenspace(value, index)?, index, |i| (i + centre) % size)?;
         found.right.iter_mut().for_each(|vector| block.extend(vector, value));
-        let zeros = |vector: &mut Vec<_>| vector.resize(block.size(), (0.0, 0.0));
+        let zeros = |vector: &mut Vec<_>| vector.resize(block.size(), Complex::zero());
         found.left.iter_mut().for_each(zeros);
         Ok(found)
     }
@@ -278,7 +273,7 @@ impl LocalSystem {
                 defect: self.row_sum_defect,
             });
         }
-        let modes = self.modes(0, (1.0, 0.0))?;
+        let modes = self.modes(0, Complex::one())?;
         let [mode] = modes.as_slice() else {
             return Err(Error::Multiplicity {
                 value: 1.0,
@@ -288,7 +283,7 @@ impl LocalSystem {
             });
         };
         // the mode is constant: its values are 1 by the scaling of the echelon form
-        Ok(mode.functional.iter().map(|w| w.0).collect())
+        Ok(mode.functional.iter().map(|w| w.re).collect())
     }
 
     /// The weights of the points in the two limit tangents: the left eigenvectors of the subdominant
@@ -300,8 +295,8 @@ impl LocalSystem {
     pub fn limit_tangents(&self, lambda: f64) -> Result<[Vec<f64>; 2], Error> {
         let mode = self.single(1, lambda)?;
         Ok([
-            mode.functional.iter().map(|w| 2.0 * w.0).collect(),
-            mode.functional.iter().map(|w| -2.0 * w.1).collect(),
+            mode.functional.iter().map(|w| 2.0 * w.re).collect(),
+            mode.functional.iter().map(|w| -2.0 * w.im).collect(),
         ])
     }
 
@@ -328,13 +323,13 @@ impl LocalSystem {
             [] => return Err(Error::NotSymmetric),
         };
         let least = values[values.len() - 1];
-        if values.iter().any(|e| e.value.1 != 0.0) || rest.first().is_some_and(|next| next.is_close(least)) {
+        if values.iter().any(|e| e.value.im != 0.0) || rest.first().is_some_and(|next| next.is_close(least)) {
             return Err(refuse(least));
         }
         let mut functionals = Vec::new();
         for e in values {
             for mode in self.modes(0, e.value)? {
-                functionals.push(mode.functional.iter().map(|weight| weight.0).collect::<Vec<f64>>());
+                functionals.push(mode.functional.iter().map(|weight| weight.re).collect::<Vec<f64>>());
             }
         }
         let pair: Result<[Vec<f64>; 2], _> = functionals.try_into();
@@ -346,7 +341,7 @@ impl LocalSystem {
     /// # Errors
     /// [`Error::Multiplicity`] if there are more; those of [`LocalSystem::modes`].
     pub fn single(&self, fourier: usize, value: f64) -> Result<Mode, Error> {
-        let mut modes = self.modes(fourier, (value, 0.0))?;
+        let mut modes = self.modes(fourier, Complex::real(value))?;
         match (modes.pop(), modes.len()) {
             (Some(mode), 0) => Ok(mode),
             (_, others) => Err(Error::Multiplicity {
@@ -360,17 +355,17 @@ impl LocalSystem {
 }
 
 fn defect(matrix: &Matrix<f64>) -> f64 {
-    defect_at(&matrix.map(|entry| (entry, 0.0)), &vec![1.0; matrix.columns()])
+    defect_at(&matrix.map(Complex::real), &vec![1.0; matrix.columns()])
 }
 
 /// The largest entry of `S c - c`.
 fn defect_at(matrix: &Matrix<Complex<f64>>, constant: &[f64]) -> f64 {
     let image = |row: usize| {
         let sum = matrix.row(row).iter().zip(constant);
-        sum.fold((0.0, 0.0), |sum, (m, c)| (sum.0 + m.0 * c, sum.1 + m.1 * c))
+        sum.fold(Complex::zero(), |sum, (m, &c)| sum + m.scale(c))
     };
     (0..matrix.rows())
-        .map(|row| (image(row).0 - constant[row]).hypot(image(row).1))
+        .map(|row| (image(row) - Complex::real(constant[row])).modulus())
         // a NaN must not be lost, as f64::max would
         .fold(
             0.0,
@@ -393,20 +388,17 @@ mod tests {
     /// `M r = value r`, `l M = value l` and `l . r = 1` on the dense matrix.
     fn check(matrix: &Matrix<f64>, mode: &Mode) {
         let size = matrix.rows();
-        let largest = |v: &[Complex<f64>]| v.iter().map(|x| x.0.hypot(x.1)).fold(1.0, f64::max);
+        let largest = |v: &[Complex<f64>]| v.iter().map(|x| x.modulus()).fold(1.0, f64::max);
         let scales = [largest(&mode.values), largest(&mode.functional)];
         for i in 0..size {
-            let (mut image, mut co_image) = ((0.0, 0.0), (0.0, 0.0));
+            let (mut image, mut co_image) = (Complex::zero(), Complex::zero());
             for j in 0..size {
-                image.0 += matrix[(i, j)] * mode.values[j].0;
-                image.1 += matrix[(i, j)] * mode.values[j].1;
-                co_image.0 += matrix[(j, i)] * mode.functional[j].0;
-                co_image.1 += matrix[(j, i)] * mode.functional[j].1;
+                image += mode.values[j].scale(matrix[(i, j)]);
+                co_image += mode.functional[j].scale(matrix[(j, i)]);
             }
             let pairs = [(image, mode.values[i]), (co_image, mode.functional[i])];
             for ((image, vector), scale) in pairs.into_iter().zip(scales) {
-                let expected = times(mode.value, vector);
-                let error = (image.0 - expected.0).hypot(image.1 - expected.1);
+                let error = (image - mode.value * vector).modulus();
                 assert!(error < 1e-11 * scale, "{error} {mode:?}");
             }
         }
@@ -414,11 +406,8 @@ mod tests {
             .values
             .iter()
             .zip(&mode.functional)
-            .fold((0.0, 0.0), |sum, (&r, &l)| {
-                let term = times(l, r);
-                (sum.0 + term.0, sum.1 + term.1)
-            });
-        assert!((product.0 - 1.0).hypot(product.1) < 1e-11 * scales[0] * scales[1]);
+            .fold(Complex::zero(), |sum, (&r, &l)| sum + l * r);
+        assert!((product - Complex::one()).modulus() < 1e-11 * scales[0] * scales[1]);
     }
 
     #[test]
@@ -456,7 +445,7 @@ mod tests {
         let scheme = doo_sabin::<f64>(5).unwrap();
         let system = LocalSystem::new(scheme.limit(), 1).unwrap();
         let eigenvalues = system.blocks()[2].eigenvalues().unwrap();
-        assert!((eigenvalues[0].value.0 - 0.25).abs() < 1e-14 && eigenvalues[0].multiplicity == 2);
+        assert!((eigenvalues[0].value.re - 0.25).abs() < 1e-14 && eigenvalues[0].multiplicity == 2);
         assert!(matches!(
             system.modes(2, eigenvalues[0].value),
             Err(Error::Defective { .. })
@@ -465,7 +454,7 @@ mod tests {
         let scheme = tension::<f64>(3, 3, 1.0).unwrap();
         let system = LocalSystem::new(scheme.limit(), 1).unwrap();
         let eigenvalues = system.blocks()[1].eigenvalues().unwrap();
-        assert!((eigenvalues[0].value.0 - 0.25).abs() < 1e-14 && eigenvalues[0].multiplicity == 2);
+        assert!((eigenvalues[0].value.re - 0.25).abs() < 1e-14 && eigenvalues[0].multiplicity == 2);
         assert!(matches!(
             system.modes(1, eigenvalues[0].value),
             Err(Error::Defective { .. })
@@ -524,10 +513,10 @@ mod tests {
         for valence in [3, 4, 5, 8] {
             let scheme = catmull_clark::<f64>(valence).unwrap();
             let system = LocalSystem::new(scheme.limit(), 2).unwrap();
-            let lambda = system.blocks()[1].eigenvalues().unwrap()[0].value.0;
+            let lambda = system.blocks()[1].eigenvalues().unwrap()[0].value.re;
             let mode = system.single(1, lambda).unwrap();
             let tangents = system.limit_tangents(lambda).unwrap();
-            let coordinates = [|v: &Complex<f64>| v.0, |v: &Complex<f64>| v.1];
+            let coordinates = [|v: &Complex<f64>| v.re, |v: &Complex<f64>| v.im];
             for (i, tangent) in tangents.iter().enumerate() {
                 assert!(tangent.iter().sum::<f64>().abs() < 1e-13);
                 for (j, coordinate) in coordinates.iter().enumerate() {
@@ -536,7 +525,7 @@ mod tests {
                 }
             }
             let first = system.numbering().index(Site { sector: 0, x: 2, y: 0 }).unwrap();
-            assert!((mode.values[first].0 - 1.0).hypot(mode.values[first].1) < 1e-14);
+            assert!((mode.values[first] - Complex::one()).modulus() < 1e-14);
         }
     }
 
@@ -549,7 +538,7 @@ mod tests {
             assert_eq!(imported.numbering(), system.numbering());
             for (a, b) in imported.blocks().iter().zip(system.blocks()) {
                 let (a, b) = (a.eigenvalues().unwrap(), b.eigenvalues().unwrap());
-                assert!((a[0].value.0 - b[0].value.0).abs() < 1e-14);
+                assert!((a[0].value.re - b[0].value.re).abs() < 1e-14);
             }
             let mut spoilt = matrix.clone();
             spoilt = Matrix::from_fn(spoilt.rows(), spoilt.columns(), |i, j| {
@@ -571,10 +560,10 @@ mod tests {
         // bicubic B-splines: 1/4 is double in block 2, with an edge mode and a face mode
         let scheme = catmull_clark::<f64>(4).unwrap();
         let system = LocalSystem::new(scheme.limit(), 1).unwrap();
-        let modes = system.modes(2, (0.25, 0.0)).unwrap();
+        let modes = system.modes(2, Complex::real(0.25)).unwrap();
         assert_eq!(modes.len(), 2);
         let at = |mode: &Mode, x, y| mode.values[system.numbering().index(Site { sector: 0, x, y }).unwrap()];
-        assert!((at(&modes[0], 2, 0).0 - 1.0).abs() < 1e-14 && at(&modes[0], 2, 2).0.abs() < 1e-14);
-        assert!(at(&modes[1], 2, 0).0.abs() < 1e-14 && (at(&modes[1], 2, 2).0 - 1.0).abs() < 1e-14);
+        assert!((at(&modes[0], 2, 0).re - 1.0).abs() < 1e-14 && at(&modes[0], 2, 2).re.abs() < 1e-14);
+        assert!(at(&modes[1], 2, 0).re.abs() < 1e-14 && (at(&modes[1], 2, 2).re - 1.0).abs() < 1e-14);
     }
 }

@@ -50,14 +50,19 @@ fn spectra_are_those_of_many_digits() {
         let mut expected: Vec<Known> = values.split_whitespace().map(known).collect();
         let mut found: Vec<&Eigenvalue> = last.2.iter().filter(|e| e.fourier == Some(index)).collect();
         expected.sort_by(|a, b| b.0.0.total_cmp(&a.0.0).then(b.0.1.total_cmp(&a.0.1)));
-        found.sort_by(|a, b| b.value.0.total_cmp(&a.value.0).then(b.value.1.total_cmp(&a.value.1)));
+        found.sort_by(|a, b| {
+            b.value
+                .re
+                .total_cmp(&a.value.re)
+                .then(b.value.im.total_cmp(&a.value.im))
+        });
         assert_eq!(
             found.len(),
             expected.len(),
             "order {order}, N = {valence}, block {index}"
         );
         for (e, (value, multiplicity)) in found.iter().zip(&expected) {
-            let error = (e.value.0 - value.0).hypot(e.value.1 - value.1);
+            let error = (e.value.re - value.0).hypot(e.value.im - value.1);
             assert!(
                 error <= 1e-12 * value.0.hypot(value.1) && e.multiplicity == copies * multiplicity,
                 "order {order}, N = {valence}, block {index}: {e:?}, expected {value:?} {multiplicity} times"

@@ -4,7 +4,7 @@
 //!
 //! * **Numbers.** A [`Scalar`] is a field with square roots and cosines of rational turns, without an order,
 //!   so that one formula runs on doubles, on [`Dual`]s for derivatives, and on any type that encloses or
-//!   computes exactly. [`Same`] says what is known to be equal.
+//!   computes exactly; a [`Complex`] number has two of them. [`Same`] says what is known to be equal.
 //! * **Functions of one variable** on any open knots: [`Knots`] are the space, a [`Spline`] has coefficients.
 //! * **Uniform B-splines** on one knot interval and their Bernstein form: [`uniform`].
 //! * **Curves and grids** of any order and tension, refined, evaluated exactly and made to reproduce conics:
@@ -31,6 +31,7 @@
 //! ```
 
 pub mod bernstein;
+mod complex;
 pub mod curve;
 mod dual;
 mod error;
@@ -40,6 +41,7 @@ pub mod quadrature;
 mod scalar;
 pub mod uniform;
 
+pub use complex::Complex;
 pub use dual::Dual;
 pub use error::Error;
 pub use knots::{Basis, Knots, Spline};

@@ -62,8 +62,8 @@ fn kind(eigenvalue: &Eigenvalue) -> Kind {
         {
             Kind::Defective
         }
-        (_, im) if im != 0.0 => Kind::Complex,
-        (re, _) if re < 0.0 => Kind::Negative,
+        value if value.im != 0.0 => Kind::Complex,
+        value if value.re < 0.0 => Kind::Negative,
         _ => Kind::Positive,
     }
 }
@@ -104,8 +104,8 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
                     subject.name.as_str().into(),
                     valence.into(),
                     e.fourier.into(),
-                    e.value.0.into(),
-                    e.value.1.into(),
+                    e.value.re.into(),
+                    e.value.im.into(),
                     e.modulus().into(),
                     e.multiplicity.into(),
                     e.geometric.into(),
@@ -178,7 +178,7 @@ mod tests {
 
     fn value(re: f64, im: f64, multiplicity: usize, geometric: usize) -> Eigenvalue {
         Eigenvalue {
-            value: (re, im),
+            value: eigenring_scheme::Complex::new(re, im),
             fourier: Some(1),
             blocks: 1,
             multiplicity,

@@ -15,13 +15,11 @@ pub use rotation::{Rotation, find};
 
 use crate::error::{Accepted, Error};
 use crate::table::{Cell, Format, Record, Table, short};
+use eigenring_scheme::Complex;
 /// The matrices that are analysed.
 pub use eigenring_spectral::Matrix;
 use eigenring_spectral::{Block, Eigenvalue, Spectrum};
 use serde_json::{Map, Value, json};
-
-/// A complex number as (real, imaginary).
-type Complex = (f64, f64);
 
 /// Imaginary parts below this times the modulus are rounding errors of blocks with complex entries.
 const REAL: f64 = 1e-9;
@@ -132,7 +130,7 @@ impl Given {
 
     /// Whether the subdominant eigenvalue is not real, so that there is no characteristic map.
     pub fn has_complex_lambda(&self) -> bool {
-        self.spectrum.subdominant().is_some_and(|lambda| lambda.value.1 != 0.0)
+        self.spectrum.subdominant().is_some_and(|lambda| lambda.value.im != 0.0)
     }
 
     /// The rotation that was found.
@@ -166,7 +164,7 @@ impl Given {
         }
         if let Some(lambda) = self.spectrum.subdominant() {
             if self.has_complex_lambda() {
-                let (re, im) = lambda.value;
+                let Complex { re, im } = lambda.value;
                 notes.push(format!(
                     "the subdominant eigenvalues are complex, {} +- {} i: their modulus is listed",
                     short(re),
@@ -195,8 +193,8 @@ impl Given {
             let sizes = e.is_defective().then(|| self.sizes(e)).flatten();
             let sizes = sizes.map(|sizes| sizes.iter().map(usize::to_string).collect::<Vec<_>>().join("+"));
             table.push(vec![
-                e.value.0.into(),
-                e.value.1.into(),
+                e.value.re.into(),
+                e.value.im.into(),
                 e.fourier.into(),
                 e.multiplicity.into(),
                 e.geometric.into(),
@@ -213,11 +211,10 @@ impl Given {
     }
 
     /// The block of an eigenvalue, and what the eigenvalue is there: block N-k is the conjugate of block k.
-    fn place(&self, eigenvalue: &Eigenvalue) -> (usize, Complex) {
-        let (re, im) = eigenvalue.value;
+    fn place(&self, eigenvalue: &Eigenvalue) -> (usize, Complex<f64>) {
         match eigenvalue.fourier.unwrap_or(0) {
-            k if k < self.blocks.len() => (k, (re, im)),
-            k => (self.valence() - k, (re, -im)),
+            k if k < self.blocks.len() => (k, eigenvalue.value),
+            k => (self.valence() - k, eigenvalue.value.conj()),
         }
     }
 
@@ -227,7 +224,7 @@ impl Given {
 
     fn head(&self) -> Record {
         let spectrum = &self.spectrum;
-        let signed = |e: &Eigenvalue| if e.value.1 == 0.0 { e.value.0 } else { e.modulus() };
+        let signed = |e: &Eigenvalue| if e.value.im == 0.0 { e.value.re } else { e.modulus() };
         Record::default()
             .with("scheme", self.name.as_str())
             .with("corner", "closed")
@@ -265,7 +262,7 @@ impl Given {
         if self.rotation.is_none() {
             // for each eigenvalue its vectors, and of each the value at each point as [re, im]
             let vectors = |left: bool| -> Vec<Vec<Vec<[f64; 2]>>> {
-                let pairs = |vector: Vec<Complex>| vector.into_iter().map(|(re, im)| [re, im]).collect();
+                let pairs = |vector: Vec<Complex<f64>>| vector.into_iter().map(|entry| [entry.re, entry.im]).collect();
                 let all = self.spectrum.eigenvalues.iter().map(|e| self.vectors(e, left));
                 all.map(|list| list.into_iter().map(pairs).collect()).collect()
             };
@@ -278,7 +275,7 @@ impl Given {
     }
 
     /// Right or left eigenvectors of an eigenvalue of the whole matrix, of unit length.
-    fn vectors(&self, eigenvalue: &Eigenvalue, left: bool) -> Vec<Vec<Complex>> {
+    fn vectors(&self, eigenvalue: &Eigenvalue, left: bool) -> Vec<Vec<Complex<f64>>> {
         match self.blocks[0].eigenspace(eigenvalue.value, 0) {
             Ok(space) => {
                 if left {
@@ -340,20 +337,20 @@ impl Given {
     }
 
     /// A left eigenvector of block k in the whole matrix.
-    fn spread(&self, k: usize, left: &[Complex]) -> Vec<Complex> {
+    fn spread(&self, k: usize, left: &[Complex<f64>]) -> Vec<Complex<f64>> {
         let Some((rotation, _)) = &self.rotation else {
             return left.to_vec();
         };
         let (n, fixed) = (rotation.valence, if k == 0 { rotation.fixed.as_slice() } else { &[] });
-        let mut weights = vec![(0.0, 0.0); self.matrix.rows()];
+        let mut weights = vec![Complex::zero(); self.matrix.rows()];
         fixed
             .iter()
             .zip(left)
             .for_each(|(&point, &weight)| weights[point] = weight);
         for (orbit, &weight) in rotation.orbits.iter().zip(&left[fixed.len()..]) {
             for (s, &point) in orbit.iter().enumerate() {
-                let (re, im) = times(weight, turn(-((k * s) as i64), n));
-                weights[point] = (re / n as f64, im / n as f64);
+                let turned = weight * Complex::turn(-((k * s) as i64), n as i64);
+                weights[point] = turned.map(|part| part / n as f64);
             }
         }
         weights
@@ -361,7 +358,7 @@ impl Given {
 
     /// The weights of the limit position: the left eigenvector of 1, sum 1.
     fn position(&self) -> Weights<Vec<f64>> {
-        let one = |e: &&Eigenvalue| e.fourier.unwrap_or(0) == 0 && (e.value.0 - 1.0).hypot(e.value.1) <= ONE;
+        let one = |e: &&Eigenvalue| e.fourier.unwrap_or(0) == 0 && (e.value - Complex::one()).modulus() <= ONE;
         let found = self.spectrum.eigenvalues.iter().find(one);
         let found = found.ok_or("1 is no eigenvalue of nets that are alike in all sectors")?;
         let space = self.blocks[0]
@@ -371,8 +368,8 @@ impl Given {
             return Err(format!("1 has {} eigenvectors, not 1", space.left.len()));
         };
         let weights = self.spread(0, left);
-        let sum = weights.iter().fold((0.0, 0.0), |sum, w| (sum.0 + w.0, sum.1 + w.1));
-        Ok(weights.iter().map(|&weight| quotient(weight, sum).0).collect())
+        let sum = weights.iter().fold(Complex::zero(), |sum, &w| sum + w);
+        Ok(weights.iter().map(|&weight| (weight / sum).re).collect())
     }
 
     /// The weights of the two limit tangents: dual to the real and imaginary part of the mode of block 1,
@@ -399,26 +396,26 @@ impl Given {
                 space.right.len()
             ));
         };
-        let largest = right.iter().map(|v| v.0.hypot(v.1)).fold(0.0, f64::max);
+        let largest = right.iter().map(|v| v.modulus()).fold(0.0, f64::max);
         let pivot = right
             .iter()
-            .find(|v| v.0.hypot(v.1) > REAL * largest)
+            .find(|v| v.modulus() > REAL * largest)
             .copied()
-            .unwrap_or((1.0, 0.0));
-        let product = left.iter().zip(right).fold((0.0, 0.0), |sum, (&l, &r)| {
-            let term = times(l, r);
-            (sum.0 + term.0, sum.1 + term.1)
-        });
-        if product.0.hypot(product.1) <= REAL * largest {
+            .unwrap_or(Complex::one());
+        let product = left
+            .iter()
+            .zip(right)
+            .fold(Complex::zero(), |sum, (&l, &r)| sum + l * r);
+        if product.modulus() <= REAL * largest {
             return Err(format!("{} is defective", short(lambda.modulus())));
         }
         // the mode is divided by its pivot, its functional multiplied by it
-        let scale = quotient(pivot, product);
+        let scale = pivot / product;
         let weights = self.spread(1, left);
-        let scaled = |&weight: &Complex| times(weight, scale);
+        let scaled = |&weight: &Complex<f64>| weight * scale;
         Ok([
-            weights.iter().map(|w| 2.0 * scaled(w).0).collect(),
-            weights.iter().map(|w| -2.0 * scaled(w).1).collect(),
+            weights.iter().map(|w| 2.0 * scaled(w).re).collect(),
+            weights.iter().map(|w| -2.0 * scaled(w).im).collect(),
         ])
     }
 
@@ -428,7 +425,7 @@ impl Given {
         let all = whole.eigenvalues().map_err(|error| error.to_string())?;
         let none = || "the eigenvalues after 1 are no real pair with two eigenvectors".to_owned();
         let next = all.get(1).ok_or_else(none)?;
-        let values: Vec<Complex> = match (next.multiplicity, all.get(2)) {
+        let values: Vec<Complex<f64>> = match (next.multiplicity, all.get(2)) {
             (2, _) => vec![next.value],
             (1, Some(second)) if second.multiplicity == 1 => vec![next.value, second.value],
             _ => return Err(none()),
@@ -436,34 +433,18 @@ impl Given {
         let mut functionals: Vec<Vec<f64>> = Vec::new();
         for value in values {
             let space = whole.eigenspace(value, 0).map_err(|error| error.to_string())?;
-            if value.1 != 0.0 {
+            if value.im != 0.0 {
                 return Err(none());
             }
             functionals.extend(
                 space
                     .left
                     .iter()
-                    .map(|left| left.iter().map(|weight| weight.0).collect::<Vec<f64>>()),
+                    .map(|left| left.iter().map(|weight| weight.re).collect::<Vec<f64>>()),
             );
         }
         functionals.try_into().map_err(|_| none())
     }
-}
-
-fn times(a: Complex, b: Complex) -> Complex {
-    (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
-}
-
-fn quotient(a: Complex, b: Complex) -> Complex {
-    let norm = b.0 * b.0 + b.1 * b.1;
-    let (re, im) = times(a, (b.0, -b.1));
-    (re / norm, im / norm)
-}
-
-/// `exp(2 pi i k/n)`.
-fn turn(k: i64, n: usize) -> Complex {
-    use eigenring_scheme::Scalar;
-    (f64::cos_turn(k, n as i64), f64::sin_turn(k, n as i64))
 }
 
 fn block(matrix: &Matrix<f64>, rotation: &Rotation, k: usize) -> Block<f64> {
@@ -474,13 +455,12 @@ fn block(matrix: &Matrix<f64>, rotation: &Rotation, k: usize) -> Block<f64> {
     };
     let points: Vec<&Vec<usize>> = fixed.iter().chain(&rotation.orbits).collect();
     let entry = |i: usize, j: usize| {
-        points[j].iter().enumerate().fold((0.0, 0.0), |sum, (s, &column)| {
-            let (entry, (re, im)) = (matrix[(points[i][0], column)], turn((k * s) as i64, n));
-            (sum.0 + entry * re, sum.1 + entry * im)
+        points[j].iter().enumerate().fold(Complex::zero(), |sum, (s, &column)| {
+            sum + Complex::turn((k * s) as i64, n as i64).scale(matrix[(points[i][0], column)])
         })
     };
     if k == 0 || 2 * k == n {
-        return Block::Real(Matrix::from_fn(points.len(), points.len(), |i, j| entry(i, j).0));
+        return Block::Real(Matrix::from_fn(points.len(), points.len(), |i, j| entry(i, j).re));
     }
     Block::Complex(Matrix::from_fn(points.len(), points.len(), entry))
 }
@@ -492,20 +472,20 @@ fn spectrum(blocks: &[Block<f64>], valence: Option<usize>) -> Result<Spectrum, E
     let mut eigenvalues = Vec::new();
     for (k, block) in blocks.iter().enumerate() {
         let list = block.eigenvalues()?;
-        let scale = list.first().map_or(0.0, |e| e.value.0.hypot(e.value.1));
-        let real = |(re, im): Complex| {
-            if im.abs() <= REAL * scale.max(re.abs()) {
-                (re, 0.0)
+        let scale = list.first().map_or(0.0, |e| e.value.modulus());
+        let real = |value: Complex<f64>| {
+            if value.im.abs() <= REAL * scale.max(value.re.abs()) {
+                Complex::real(value.re)
             } else {
-                (re, im)
+                value
             }
         };
-        let near = |a: Complex, b: Complex| (a.0 - b.0).hypot(a.1 - b.1) <= SAME * scale;
+        let near = |a: Complex<f64>, b: Complex<f64>| (a - b).modulus() <= SAME * scale;
         for e in &list {
             let value = real(e.value);
-            let conjugate = (value.0, -value.1);
+            let conjugate = value.conj();
             let geometric = block.nullity(e.value)?.clamp(1, e.multiplicity);
-            let mut add = |value: Complex, fourier: usize, copies: usize| {
+            let mut add = |value: Complex<f64>, fourier: usize, copies: usize| {
                 eigenvalues.push(Eigenvalue {
                     value,
                     fourier: valence.map(|_| fourier),
@@ -516,7 +496,7 @@ fn spectrum(blocks: &[Block<f64>], valence: Option<usize>) -> Result<Spectrum, E
             };
             match valence {
                 Some(n) if k != 0 && 2 * k != n => {
-                    if value.1 == 0.0 || list.iter().any(|other| near(other.value, conjugate)) {
+                    if value.im == 0.0 || list.iter().any(|other| near(other.value, conjugate)) {
                         add(value, k, 2);
                     } else {
                         add(value, k, 1);
@@ -535,7 +515,7 @@ fn spectrum(blocks: &[Block<f64>], valence: Option<usize>) -> Result<Spectrum, E
             .get(end)
             .is_none_or(|e| e.modulus() < eigenvalues[start].modulus() * (1.0 - SAME) - f64::MIN_POSITIVE);
         if ends {
-            let order = |e: &Eigenvalue| (e.fourier, -e.value.0, -e.value.1);
+            let order = |e: &Eigenvalue| (e.fourier, -e.value.re, -e.value.im);
             eigenvalues[start..end]
                 .sort_by(|a, b| order(a).partial_cmp(&order(b)).unwrap_or(std::cmp::Ordering::Equal));
             start = end;

@@ -98,7 +98,7 @@ pub fn rows(case: &Case, levels: &[Option<usize>]) -> Result<Vec<Row>, Error> {
             indices: [1, 2, 3].map(|index| at(index).and_then(|(_, fourier)| fourier)),
             outer: 0.5_f64.powi(case.order as i32 - 2) / (1.0 + u),
             dominant: eigenvalues.first().is_some_and(|one| {
-                (one.value.0 - 1.0).abs() <= EQUAL && (one.fourier, one.multiplicity) == (Some(0), 1)
+                (one.value.re - 1.0).abs() <= EQUAL && (one.fourier, one.multiplicity) == (Some(0), 1)
             }),
         });
     }

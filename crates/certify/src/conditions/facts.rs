@@ -3,6 +3,7 @@
 use crate::exact::{self, Field, Poly, block_polynomial};
 use crate::spectral::{EnclosedEigenvalue, EnclosedSpectrum};
 use crate::{Interval, Subject};
+use eigenring_spectral::SecondOrder;
 use std::collections::BTreeMap;
 
 /// Equalities, decided exactly: whether `lambda^2` is an eigenvalue of a block.
@@ -37,11 +38,7 @@ impl<'a> Facts<'a> {
     pub fn square_in(&mut self, index: usize, lambda: Interval) -> Option<bool> {
         let valence = self.subject.scheme.valence();
         if let Some(identities) = self.subject.identities {
-            let second_order = if valence == 3 {
-                index <= 1
-            } else {
-                index == 0 || index == 2
-            };
+            let second_order = SecondOrder::copies_in(valence, index) > 0;
             return (second_order && identities.square).then_some(true);
         }
         let rings = self.subject.scheme.closed_rings().ok()?;

@@ -6,6 +6,7 @@ use super::{Subdominant, named};
 use crate::linear::Eigenvalue;
 use crate::spectral::{EnclosedEigenvalue, EnclosedSpectrum};
 use crate::{Check, Interval, Statement, Subject, Witness};
+use eigenring_spectral::SecondOrder;
 
 /// The eigenvalues that are exactly `lambda^2` and without Jordan block: their positions among the entries,
 /// and the Fourier indices that have them.
@@ -71,10 +72,9 @@ fn squares(subject: &Subject, spectrum: &EnclosedSpectrum, lambda: &Subdominant,
                 found.positions.extend(near);
                 found.indices.push(block.index);
             }
-            // both saddles of valence 4 lie in block 2
+            // both saddles lie in one block
             (Some(true), 2)
-                if valence == 4
-                    && block.index == 2
+                if SecondOrder::copies_in(valence, block.index) == 2
                     && bounded
                     && all_apart()
                     && near.iter().all(|&p| inner(p))
@@ -161,22 +161,21 @@ fn bounded(spectrum: &EnclosedSpectrum, lambda: &Subdominant, squares: &Squares)
     Check::proven(NAME).margin(margin).enclosing(enclosure)
 }
 
-/// The indices, at most N/2, of the blocks in which the three second-order eigenvalues lie.
-fn second_order_indices(valence: usize) -> [usize; 2] {
-    if valence == 3 { [0, 1] } else { [0, 2] }
-}
-
 fn non_degenerate(valence: usize, spectrum: &EnclosedSpectrum, lambda: &Subdominant, squares: &Squares) -> Check {
     const NAME: Statement = Statement::NonDegenerate;
     let square = lambda.value.square();
-    for index in second_order_indices(valence) {
+    for SecondOrder {
+        block: index,
+        copies: wanted,
+        ..
+    } in SecondOrder::of(valence)
+    {
         let others = spectrum.entries.iter().enumerate();
         let mut in_block: Vec<&EnclosedEigenvalue> = others
             .filter(|(position, e)| *position != lambda.position && e.index == index)
             .map(|(_, entry)| entry)
             .collect();
         in_block.sort_by(|a, b| b.value.modulus().mid().total_cmp(&a.value.modulus().mid()));
-        let wanted = if valence == 4 && index == 2 { 2 } else { 1 };
         if squares.without.contains(&index) {
             let nearest = in_block
                 .get(wanted - 1)
@@ -186,7 +185,7 @@ fn non_degenerate(valence: usize, spectrum: &EnclosedSpectrum, lambda: &Subdomin
             let witness = Witness::new(text).with("mu", nearest).with("ratio", ratio);
             return Check::refuted(NAME, witness).enclosing(ratio);
         }
-        // one of the two saddles of valence 4 has it, the other has not
+        // one of two saddles in one block has it, the other has not
         let candidates = in_block.iter().filter(|e| !e.value.re.disjoint(square)).count();
         let bounded = spectrum
             .bounds
@@ -229,9 +228,11 @@ fn strict(subject: &Subject, spectrum: &EnclosedSpectrum, lambda: &Subdominant, 
     // the three second-order eigenvalues: the largest of their blocks
     let mut chosen = vec![lambda.position];
     let mut mu: Option<Interval> = None;
-    for index in second_order_indices(valence) {
-        let wanted = if valence == 4 && index == 2 { 2 } else { 1 };
-        for _ in 0..wanted {
+    for SecondOrder {
+        block: index, copies, ..
+    } in SecondOrder::of(valence)
+    {
+        for _ in 0..copies {
             let entries = spectrum.entries.iter().enumerate();
             let next = entries
                 .filter(|(position, entry)| entry.index == index && !chosen.contains(position))
@@ -263,7 +264,7 @@ fn strict(subject: &Subject, spectrum: &EnclosedSpectrum, lambda: &Subdominant, 
     let hidden = spectrum
         .bounds
         .iter()
-        .find(|bound| second_order_indices(valence).contains(&bound.index) && bound.radius >= mu.lo());
+        .find(|bound| SecondOrder::copies_in(valence, bound.index) > 0 && bound.radius >= mu.lo());
     if let Some(bound) = hidden {
         return Check::undecided(
             NAME,

@@ -1,7 +1,7 @@
 //! Cyclotomic fields.
 
 use crate::Interval;
-use eigenring_scheme::{Exact, Scalar};
+use eigenring_scheme::{Complex, Exact, Scalar};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
@@ -65,16 +65,14 @@ impl Field {
         self.reduced(element)
     }
 
-    /// A stencil weight; `None` if it has no value or its cosine is not of this field.
-    pub fn weight(&self, weight: &Exact) -> Option<Element> {
-        let cosines = weight.cosines()?;
-        let mut sum = self.rational(cosines.rational_part().clone());
-        for (factor, turn, of) in cosines.terms() {
-            let step = (self.order as i64 % of == 0).then_some(self.order as i64 / of)?;
-            let cosine = add(&self.root(turn * step), &self.root(-turn * step));
-            sum = add(&sum, &scaled(&cosine, &(factor / BigRational::from(BigInt::from(2)))));
+    /// A complex number; `None` if it has no value or is not of this field.
+    pub fn element(&self, z: &Complex<Exact>) -> Option<Element> {
+        let powers = Exact::powers(z, self.order)?;
+        let mut element = vec![BigRational::zero(); self.order];
+        for (power, coefficient) in powers {
+            element[power] = coefficient;
         }
-        Some(sum)
+        Some(self.reduced(trimmed(element)))
     }
 
     /// The product.

@@ -17,19 +17,36 @@
 //! Whatever does not fit (weights without exact value, blocks of more than [`MAX_SIZE`] unknowns) is "not
 //! decidable here", never an error and never a guess.
 
-mod block;
 mod field;
 mod polynomial;
 
-pub use block::{block_polynomial, row_sum_defect};
 pub use field::{Element, Field};
 pub use polynomial::Poly;
 
 use crate::Interval;
+use eigenring_scheme::{Exact, Lattice, Level, Symmetry};
+use eigenring_spectral::{fourier_block, numbering};
 
 /// The largest block whose characteristic polynomial is worked out: the two-ring schemes of order 6 have 7
 /// unknowns.
 pub const MAX_SIZE: usize = 8;
+
+/// The exact characteristic polynomial of the block of Fourier index `index` on `rings` rings of a level that
+/// is the same in all sectors. `None` if it has more than [`MAX_SIZE`] unknowns, a weight has no exact value,
+/// the rings are not closed, or an entry is not of the field, which should be that of the sectors.
+pub fn block_polynomial(field: &Field, level: &Level<Exact>, rings: usize, index: usize) -> Option<Poly> {
+    let numbering = numbering(level, rings);
+    let centre = usize::from(index == 0 && numbering.lattice == Lattice::Vertex);
+    if numbering.sector_points() + centre > MAX_SIZE {
+        return None;
+    }
+    // half turns, which the real unknowns of mirror symmetry need, may be of no field of this order
+    let level = level.clone().with_at_most(Symmetry::Rotation);
+    let block = fourier_block(&level, rings, index).ok()?.to_complex();
+    let row = |i: usize| block.row(i).iter().map(|entry| field.element(entry)).collect();
+    let matrix = (0..block.rows()).map(row).collect::<Option<Vec<_>>>()?;
+    Some(Poly::characteristic(&matrix, field))
+}
 
 /// Whether the square of a root of `first` is a root of `second`, given an interval that holds exactly one
 /// root of `first`, a simple one. `None` if this cannot be told.

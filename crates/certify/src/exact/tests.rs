@@ -1,6 +1,6 @@
 use super::*;
 use eigenring_scheme::families::{catmull_clark, doo_sabin, tension};
-use eigenring_scheme::{Exact, Fan, Lattice, Level, Line, Pass, Scalar, Scheme, Site, Stencil};
+use eigenring_scheme::{Complex, Exact, Scalar, Scheme};
 use num_rational::BigRational;
 use proptest::prelude::*;
 
@@ -68,7 +68,9 @@ fn characteristic_polynomials_are_those_of_the_literature() {
         let scheme: Scheme<Exact> = catmull_clark(valence).unwrap();
         for k in [1, 2, valence / 2] {
             let polynomial = block_polynomial(&field, scheme.limit(), 1, k).unwrap();
-            let cosine = field.weight(&Exact::cos_turn(k as i64, valence as i64)).unwrap();
+            let cosine = field
+                .element(&Complex::real(Exact::cos_turn(k as i64, valence as i64)))
+                .unwrap();
             let trace = field::scaled(&field::add(&field.integer(5), &cosine), &rational(1, 8));
             let minus = field::scaled(&trace, &rational(-1, 1));
             let expected = Poly::new(vec![field.rational(rational(1, 16)), minus, field.integer(1)]);
@@ -97,8 +99,6 @@ fn doo_sabin_has_a_half_and_quarters() {
             Some(false),
             "{valence}"
         );
-        let sums = row_sum_defect(&field, scheme.limit(), &[Site { sector: 0, x: 1, y: 1 }]).unwrap();
-        assert_eq!(sums, [Some((true, Interval::point(0.0)))]);
     }
 }
 
@@ -129,30 +129,6 @@ fn squares_and_repeated_roots_are_told_apart() {
     assert_eq!(is_repeated(&field, &h, near(0.25)), Some(true));
     assert_eq!(is_repeated(&field, &h, near(0.125)), Some(false));
     assert_eq!(is_repeated(&field, &f, near(0.5)), Some(false));
-}
-
-#[test]
-fn rational_schemes_sum_to_one_and_planted_faults_are_seen() {
-    for valence in [3, 5, 8] {
-        for order in [3, 4, 5, 6, 9] {
-            let field = Field::new(valence);
-            let scheme: Scheme<Exact> = tension(valence, order, 1.0).unwrap();
-            let numbering = scheme.numbering(2);
-            let sites: Vec<Site> = numbering.sector_sites(0).collect();
-            let defects = row_sum_defect(&field, scheme.limit(), &sites).unwrap();
-            assert!(
-                defects.iter().all(|defect| defect.is_some_and(|(zero, _)| zero)),
-                "{order}"
-            );
-        }
-    }
-    let stencil = Stencil::new().with(Site::CENTRE, Exact::ratio(1_000_000_001, 1_000_000_000));
-    let pass = Pass::regular(Lattice::Vertex, Lattice::Vertex, Line::cubic()).with(Site::CENTRE, stencil);
-    let level = Level::new(Fan::Closed(5), vec![pass]).unwrap();
-    let [Some((zero, defect))] = row_sum_defect(&Field::new(5), &level, &[Site::CENTRE]).unwrap()[..] else {
-        panic!("decidable");
-    };
-    assert!(!zero && defect.contains(1e-9));
 }
 
 #[test]

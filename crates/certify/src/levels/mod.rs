@@ -38,6 +38,7 @@ pub use tail::Tail;
 
 use crate::linear::{eigenpair, solve};
 use crate::{Check, Interval, Statement, Subject};
+use eigenring_scheme::Complex;
 use eigenring_spectral::{Block, Matrix, fourier_block, local_matrix};
 
 /// What is known of the levels beyond the leading ones.
@@ -206,10 +207,10 @@ fn left_eigenvectors(
 fn left_eigenvector(matrix: &Matrix<Interval>, lambda: Interval) -> Option<Vec<Interval>> {
     let transposed = Matrix::from_fn(matrix.rows(), matrix.rows(), |i, j| matrix[(j, i)]);
     let rough = Block::Real(transposed.map(Interval::mid))
-        .eigenspace((lambda.mid(), 0.0), 1)
+        .eigenspace(Complex::real(lambda.mid()), 1)
         .ok()?;
     let [vector] = rough.right.as_slice() else { return None };
-    let vector: Vec<f64> = vector.iter().map(|entry| entry.0).collect();
+    let vector: Vec<f64> = vector.iter().map(|entry| entry.re).collect();
     let left = eigenpair(&transposed, lambda.mid(), &vector)?;
     (!left.value.disjoint(lambda)).then_some(left.vector)
 }

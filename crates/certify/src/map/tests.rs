@@ -5,7 +5,7 @@ use super::*;
 use crate::{Centred, Status};
 use eigenring_scheme::Scheme;
 use eigenring_scheme::families::{catmull_clark, doo_sabin, tension};
-use eigenring_spectral::{LocalSystem, Maps};
+use eigenring_spectral::{LocalSystem, Maps, SecondOrder};
 
 /// The modes computed in doubles are right within this, relative to values of size 10.
 const RADIUS: f64 = 1e-12;
@@ -13,13 +13,13 @@ const RADIUS: f64 = 1e-12;
 /// The leading mode of a Fourier index on the scheme's annulus, real and imaginary part, with its eigenvalue.
 pub(super) fn mode(scheme: &Scheme<f64>, annulus: Annulus, fourier: usize) -> (f64, [Vec<f64>; 2]) {
     let system = LocalSystem::new(scheme.limit(), annulus.numbering.rings).unwrap();
-    let value = system.blocks()[fourier].eigenvalues().unwrap()[0].value.0;
+    let value = system.blocks()[fourier].eigenvalues().unwrap()[0].value.re;
     let mode = system.single(fourier, value).unwrap();
     (
         value,
         [
-            mode.values.iter().map(|v| v.0).collect(),
-            mode.values.iter().map(|v| v.1).collect(),
+            mode.values.iter().map(|v| v.re).collect(),
+            mode.values.iter().map(|v| v.im).collect(),
         ],
     )
 }
@@ -372,7 +372,7 @@ pub(super) fn heights(net: &PlaneNet<Interval>, maps: &Maps) -> Vec<(Sign, Heigh
     let n = net.sectors();
     let [cup, re, im] = maps.second_order.each_ref().map(|z| widened(z));
     let cup = (Sign::Positive, Heights::new(net, 0, vec![cup]).unwrap());
-    let saddles = if n == 4 {
+    let saddles = if SecondOrder::copies_in(n, 2) == 2 {
         vec![
             Heights::new(net, 2, vec![re]).unwrap(),
             Heights::new(net, 2, vec![im]).unwrap(),

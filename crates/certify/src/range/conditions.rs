@@ -131,6 +131,7 @@ mod tests {
     use crate::spectral::{EnclosedSpectrum, problem_of};
     use eigenring_scheme::Exact;
     use eigenring_scheme::families::catmull_clark_weights;
+    use eigenring_spectral::SecondOrder;
     use num_bigint::BigInt;
     use num_rational::BigRational;
 
@@ -178,8 +179,8 @@ mod tests {
                 let mu = number(point.plane.mu()).mid();
                 let mut moduli: Vec<f64> = spectrum.entries.iter().map(|e| e.value.modulus().mid()).collect();
                 moduli.sort_by(|a, b| b.total_cmp(a));
-                // without lambda and the three (N = 3: two; blocks are listed once) second-order ones
-                let skip = if valence == 4 { 4 } else { 3 };
+                // without lambda and the second-order ones
+                let skip = 1 + SecondOrder::of(valence).iter().map(|of| of.copies).sum::<usize>();
                 let largest = moduli[skip];
                 assert_eq!(
                     largest < mu,

@@ -50,7 +50,7 @@ pub fn characteristic(point: &StencilBox) -> Option<PlaneNet<Centred<1>>> {
             vector[unknown] = value;
         }
     }
-    let (x, y) = net(numbering, 1, &vector, 0).into_iter().unzip();
+    let (x, y) = net(numbering, 1, &vector, 0).into_iter().map(|z| (z.re, z.im)).unzip();
     PlaneNet::new(annulus, 1, true, [x, y]).ok()
 }
 

@@ -5,7 +5,7 @@ use super::graph::components;
 use super::{MAX_BLOCK, MAX_POINTS};
 use crate::linear::quotient;
 use crate::{Error, Interval, Patches};
-use eigenring_scheme::{Level, Numbering, Site};
+use eigenring_scheme::{Complex, Level, Numbering, Site};
 use eigenring_spectral::{Block as Fourier, Matrix, fourier_block, local_matrix};
 
 /// One Fourier block.
@@ -259,11 +259,11 @@ fn whole_block(level: &Level<Interval>, numbering: Numbering, index: usize) -> R
     let (matrix, place) = match fourier_block(level, numbering.rings, index)? {
         Fourier::Real(matrix) => (matrix, Place::Real),
         // phases of these indices are 1 and -1
-        Fourier::Complex(matrix) if index == 0 || 2 * index == n => (matrix.map(|(re, _)| re), Place::Parts),
+        Fourier::Complex(matrix) if index == 0 || 2 * index == n => (matrix.map(|entry| entry.re), Place::Parts),
         Fourier::Complex(matrix) => {
             let size = matrix.rows();
             let doubled = Matrix::from_fn(2 * size, 2 * size, |i, j| {
-                let (re, im) = matrix[(i % size, j % size)];
+                let Complex { re, im } = matrix[(i % size, j % size)];
                 match (i < size, j < size) {
                     (true, false) => -im,
                     (false, true) => im,

@@ -140,10 +140,7 @@ pub fn net<S: Scalar + Copy>(numbering: Numbering, index: usize, unknowns: &[S],
     let n = numbering.fan.sectors();
     let first = unknowns.len() - numbering.sector_points();
     let half_phases: Vec<Complex<S>> = (0..2 * n)
-        .map(|j| {
-            let (k, n) = ((index * j) as i64, 2 * n as i64);
-            (S::cos_turn(k, n), S::sin_turn(k, n))
-        })
+        .map(|j| Complex::turn((index * j) as i64, 2 * n as i64))
         .collect();
     let unknown = |x: i32, y: i32| {
         let site = Site { sector: 0, x, y };
@@ -155,7 +152,7 @@ pub fn net<S: Scalar + Copy>(numbering: Numbering, index: usize, unknowns: &[S],
     let value = |site: Site| {
         if site == Site::CENTRE {
             let value = if first == 1 { unknowns[0] } else { S::zero() };
-            return (value, S::zero());
+            return Complex::real(value);
         }
         let (turns, p, q) = match site.x.cmp(&site.y) {
             _ if site.y == 0 => (0, unknown(site.x, 0), S::zero()),
@@ -164,7 +161,7 @@ pub fn net<S: Scalar + Copy>(numbering: Numbering, index: usize, unknowns: &[S],
             std::cmp::Ordering::Less => (1, unknown(site.y, site.x), -unknown(site.x, site.y)),
         };
         let phase = half_phases[(2 * (n + site.sector) + turns - turn) % (2 * n)];
-        (phase.0 * p - phase.1 * q, phase.0 * q + phase.1 * p)
+        phase * Complex::new(p, q)
     };
     numbering.sites().into_iter().map(value).collect()
 }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::find;
-use eigenring_scheme::{FourierNet, Spec};
+use eigenring_scheme::{Complex, FourierNet, Spec};
 use eigenring_spectral::LocalSystem;
 
 fn spectrum(spec: &str, valence: usize) -> EnclosedSpectrum {
@@ -38,11 +38,11 @@ fn spectra_agree_with_those_in_doubles() {
                 for value in block.eigenvalues().unwrap() {
                     let near = |entry: &EnclosedEigenvalue| {
                         let inflated = |x: Interval| x + Interval::around(0.0, 1e-12);
-                        inflated(entry.value.re).contains(value.value.0)
-                            && inflated(entry.value.im).contains(value.value.1)
+                        inflated(entry.value.re).contains(value.value.re)
+                            && inflated(entry.value.im).contains(value.value.im)
                     };
-                    let one = index == 0 && (value.value.0 - 1.0).abs() < 1e-12;
-                    let bounded = bounds.clone().any(|bound| value.value.0.abs() < bound.radius);
+                    let one = index == 0 && (value.value.re - 1.0).abs() < 1e-12;
+                    let bounded = bounds.clone().any(|bound| value.value.re.abs() < bound.radius);
                     assert!(
                         one || bounded || entries().any(near),
                         "{spec} {valence} {index}: {value:?}"
@@ -82,24 +82,18 @@ fn eigenvectors_are_those_of_the_modes_and_sharp() {
                     continue;
                 };
                 // the same up to a factor: compare where both are largest
-                let size = |v: (f64, f64)| v.0.hypot(v.1);
                 let pivot = (0..net.len())
-                    .max_by(|&a, &b| size(mode.values[a]).total_cmp(&size(mode.values[b])))
+                    .max_by(|&a, &b| mode.values[a].modulus().total_cmp(&mode.values[b].modulus()))
                     .unwrap();
-                let (a, b) = (mode.values[pivot], (net[pivot].0.mid(), net[pivot].1.mid()));
-                let norm = size(a).powi(2);
-                let ratio = ((b.0 * a.0 + b.1 * a.1) / norm, (b.1 * a.0 - b.0 * a.1) / norm);
+                let at_pivot = net[pivot].map(Interval::mid);
+                let ratio = at_pivot / mode.values[pivot];
                 for (point, value) in net.iter().zip(&mode.values) {
-                    let expected = (
-                        value.0 * ratio.0 - value.1 * ratio.1,
-                        value.0 * ratio.1 + value.1 * ratio.0,
-                    );
-                    let error = (point.0.mid() - expected.0).hypot(point.1.mid() - expected.1);
+                    let error = (point.map(Interval::mid) - *value * ratio).modulus();
                     assert!(error < 1e-9, "{spec} {valence} {index}: {error}");
                     assert!(
-                        point.0.width() < 1e-11 * size(b).max(1.0),
+                        point.re.width() < 1e-11 * at_pivot.modulus().max(1.0),
                         "{spec} {valence} {index}: {}",
-                        point.0.width()
+                        point.re.width()
                     );
                 }
             }
@@ -115,10 +109,10 @@ fn nets_are_spread_as_by_the_rules() {
         for index in [0, 1, 2] {
             let rules = FourierNet::<f64>::new(numbering, index, true).unwrap();
             let unknowns: Vec<f64> = (0..rules.size()).map(|i| (i as f64 * 0.7 + 0.3).sin()).collect();
-            let pairs: Vec<(f64, f64)> = unknowns.iter().map(|&x| (x, 0.0)).collect();
+            let pairs: Vec<Complex<f64>> = unknowns.iter().copied().map(Complex::real).collect();
             for (site, value) in numbering.sites().into_iter().zip(net(numbering, index, &unknowns, 0)) {
                 let expected = rules.mode(&pairs, site).unwrap();
-                assert!((value.0 - expected.0).hypot(value.1 - expected.1) < 1e-14);
+                assert!((value - expected).modulus() < 1e-14);
             }
         }
     }

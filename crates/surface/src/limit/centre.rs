@@ -11,7 +11,7 @@ use super::patch::Patch;
 use crate::Error;
 use crate::refine::{Row, Step, add};
 use crate::rules::Rules;
-use eigenring_scheme::Table;
+use eigenring_scheme::{Complex, Table};
 use eigenring_spectral::{Block, Matrix};
 use std::sync::{Arc, OnceLock};
 
@@ -397,7 +397,7 @@ impl Centre {
         }
         let mut last = f64::NAN;
         for eigenvalue in block.eigenvalues().ok()?.iter().skip(1) {
-            let modulus = eigenvalue.value.0.hypot(eigenvalue.value.1);
+            let modulus = eigenvalue.value.modulus();
             let in_pair = self
                 .lambda
                 .is_ok_and(|pair| pair.iter().any(|lambda| (modulus - lambda).abs() < EQUAL * lambda));
@@ -412,9 +412,9 @@ impl Centre {
                 let part = left
                     .iter()
                     .zip(heights)
-                    .fold([0.0, 0.0], |sum, (l, z)| [sum[0] + l.0 * z, sum[1] + l.1 * z]);
+                    .fold(Complex::zero(), |sum, (l, &z)| sum + l.scale(z));
                 // functionals have unit length
-                if part[0].hypot(part[1]) > 1e-10 * size {
+                if part.modulus() > 1e-10 * size {
                     return Some(modulus);
                 }
             }
@@ -460,8 +460,7 @@ fn pair(matrix: &[Row], local: &Local) -> Result<Result<Pair, Undefined>, Error>
     }
     let block = block(matrix);
     let found = block.eigenvalues()?;
-    let modulus = |value: (f64, f64)| value.0.hypot(value.1);
-    let all: Vec<(f64, f64)> = found
+    let all: Vec<Complex<f64>> = found
         .iter()
         .flat_map(|e| std::iter::repeat_n(e.value, e.multiplicity))
         .collect();
@@ -469,13 +468,13 @@ fn pair(matrix: &[Row], local: &Local) -> Result<Result<Pair, Undefined>, Error>
     let [one, first, second, rest @ ..] = all.as_slice() else {
         return refuse(Undefined::NotDominant);
     };
-    let third = rest.first().map_or(0.0, |&value| modulus(value));
-    let real = first.1 == 0.0 && second.1 == 0.0 && first.0 > 0.0 && second.0 > 0.0;
-    if !real || (one.0 - 1.0).abs() > EQUAL || first.0 > 1.0 - EQUAL || third > second.0 * (1.0 - EQUAL) {
+    let third = rest.first().map_or(0.0, |value| value.modulus());
+    let real = first.im == 0.0 && second.im == 0.0 && first.re > 0.0 && second.re > 0.0;
+    if !real || (one.re - 1.0).abs() > EQUAL || first.re > 1.0 - EQUAL || third > second.re * (1.0 - EQUAL) {
         return refuse(Undefined::NotDominant);
     }
-    let real_part = |vectors: &[Vec<(f64, f64)>]| -> Vec<Vec<f64>> {
-        vectors.iter().map(|v| v.iter().map(|x| x.0).collect()).collect()
+    let real_part = |vectors: &[Vec<Complex<f64>>]| -> Vec<Vec<f64>> {
+        vectors.iter().map(|v| v.iter().map(|x| x.re).collect()).collect()
     };
     let (mut right, mut left) = (Vec::new(), Vec::new());
     let values = if first == second {
@@ -544,7 +543,7 @@ fn pair(matrix: &[Row], local: &Local) -> Result<Result<Pair, Undefined>, Error>
         left[1].iter_mut().for_each(|l| *l = -*l);
     }
     Ok(Ok(Pair {
-        lambda: [first.0, second.0],
+        lambda: [first.re, second.re],
         right,
         left,
     }))

@@ -22,12 +22,11 @@
 //! pair of points only the one below the diagonal is kept; weights are halved on the diagonal, so that they
 //! sum to 6, half a sector's area in parameters.
 
-use super::complex::Complex;
 use super::lanes::{Lanes, WIDTH};
 use super::rings::{FirstRing, Rings, to_bisector};
 use eigenring_scheme::lambda::Plane;
-use eigenring_spline::Scalar;
 use eigenring_spline::quadrature::gauss_legendre;
+use eigenring_spline::{Complex, Scalar};
 
 /// Derivatives of a field with respect to the patch parameters: u, v, uu, uv, vv.
 pub(super) type Derivatives = [Lanes; 5];

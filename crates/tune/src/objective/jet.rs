@@ -13,9 +13,9 @@
 //! H' = -(G^T H + H G) - z_x Hess(V_x) - z_y Hess(V_y),    G = grad V,    J' = J div V
 //! ```
 
-use super::complex::Complex;
 use super::fields::Derivatives;
 use super::lanes::Lanes;
+use eigenring_spline::Complex;
 
 /// A symmetric 2x2 matrix `[[t + s.re, s.im], [s.im, t - s.re]]`.
 #[derive(Clone, Copy, Debug)]

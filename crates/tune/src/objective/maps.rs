@@ -19,10 +19,10 @@
 //! q = 2 (fit - rho T)^2 + 2 kappa T^2 + tau (3 |S|^2 + m Re S^2)/2,     K = T^2 - |S|^2
 //! ```
 
-use super::complex::Complex;
 use super::jet::Spin;
 use super::lanes::Lanes;
 use super::weight::Weight;
+use eigenring_spline::Complex;
 
 /// The constants of the sums over all annuli.
 #[derive(Clone, Copy, Debug)]

@@ -19,7 +19,6 @@
 //! An evaluation then needs no linear algebra (see `evaluate`), and the gradient is exact. At N = 4, where f3
 //! must be mu, the objective is a function of f2 alone: the given f3 is not used and its derivative is zero.
 
-mod complex;
 #[cfg(test)]
 mod direct;
 mod evaluate;
@@ -38,6 +37,7 @@ mod weight;
 pub use settings::{Error, Normalisation, Settings};
 
 use eigenring_scheme::lambda::Plane;
+use eigenring_spectral::SecondOrder;
 use eigenring_spline::{Dual, Scalar};
 use evaluate::{Coefficients, Outcome, SIGNS, Slope, curvature_extremes, evaluate};
 use fields::{Fields, Turns};
@@ -247,7 +247,8 @@ impl Objective {
         let (f1, g1, g3, h) = (stencil.weights.f1, stencil.g1, stencil.g3, two * stencil.g2 * f2);
         Coefficients {
             radius: plane.corner_radius(f2, f3),
-            saddle: if plane.valence == 4 {
+            // two saddles of one block are its points on the spokes and on the diagonals
+            saddle: if SecondOrder::copies_in(plane.valence, 2) == 2 {
                 [Dual2::one(); 2]
             } else {
                 [mu - f3, two * f2 * plane.cosine(1)]

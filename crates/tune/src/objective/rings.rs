@@ -7,8 +7,7 @@
 //! explicitly. No tuned weight acts beyond the first ring: at a fixed eigenvalue the outer rings depend
 //! linearly on the first.
 
-use super::complex::Complex;
-use eigenring_spline::Scalar;
+use eigenring_spline::{Complex, Scalar};
 
 /// The rings carried: patches of the third and fourth layer need five.
 const RINGS: usize = 5;
@@ -57,7 +56,7 @@ impl Rings {
             for (row, &site) in SECOND.iter().enumerate() {
                 system[row][column] = -unit.refined(site);
             }
-            system[column][column] = system[column][column] + Complex::new(eigenvalue, 0.0);
+            system[column][column] += Complex::new(eigenvalue, 0.0);
         }
         for (row, &site) in SECOND.iter().enumerate() {
             system[row][4] = rings.refined(site);
@@ -101,7 +100,7 @@ impl Rings {
         let mut sum = Complex::zero();
         for &(i, weight_a) in line(a).iter() {
             for &(j, weight_b) in line(b).iter() {
-                sum = sum + self.at(i, j).scale(weight_a * weight_b);
+                sum += self.at(i, j).scale(weight_a * weight_b);
             }
         }
         sum

@@ -18,12 +18,12 @@
 //!
 //! So the sectors enter through the sums of w, w t, w t^2 (value) and w' q, w' q t (adjoint) alone.
 
-use super::complex::Complex;
 use super::fields::Turns;
 use super::jet::Spin;
 use super::lanes::Lanes;
 use super::maps::{Annuli, Error, inverse, inverse_square};
 use super::sectors::{Sums, Weights};
+use eigenring_spline::Complex;
 
 /// The Hessian of the complex Z at a block of points: half trace and the two spin components of the module
 /// page.

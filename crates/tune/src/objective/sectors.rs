@@ -4,10 +4,10 @@
 //! exp(4 i phi)` of a sector (see `saddle`). The weight of every point and class takes two square roots and
 //! one division; the rest are sums.
 
-use super::complex::Complex;
 use super::fields::{Turn, Turns};
 use super::lanes::{Lanes, WIDTH};
 use super::weight::Weight;
+use eigenring_spline::Complex;
 
 const ZERO: Complex<Lanes> = Complex {
     re: Lanes::ZERO,
