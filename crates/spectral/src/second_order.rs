@@ -1,11 +1,12 @@
 //! The Fourier blocks of the quadratic terms.
 
-/// A Fourier block with the eigenvalues of quadratic terms: `x^2 + y^2` turns with index 0, the saddles `x^2 -
-/// y^2` and `2 x y` with 2 and N-2. Blocks k and N-k are conjugate, and of two the one with `k <= N/2` is
-/// listed.
+/// A Fourier block with the eigenvalues of quadratic terms: `x^2 + y^2` turns with index 0, the saddles
+/// `x^2 - y^2` and `2 x y` with 2 and N-2. Blocks k and N-k are conjugate, and of two the one with `k <= N/2`
+/// is listed.
 ///
-/// At N = 3 the saddles' indices are those of the characteristic map, 1 and 2, and both saddles come after its
-/// eigenvalue in block 1. At N = 4 they are the same, and two eigenvalues of block 2 belong to one saddle each.
+/// At N = 3 the saddles' indices are those of the characteristic map, 1 and 2, and both saddles come after
+/// its eigenvalue in block 1. At N = 4 they are the same, and two eigenvalues of block 2 belong to one saddle
+/// each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SecondOrder {
     /// The index of the block, at most N/2.

@@ -124,7 +124,8 @@ fn square_roots_of_rational_numbers_and_half_angles() {
     assert!(!(Exact::ratio(3, 1) + Exact::cos_turn(1, 5)).sqrt().has_value());
 }
 
-/// `i cos x` and the like have one sum of powers of the root of unity, in the smallest field that they are of.
+/// Roots of unity and what is made of them have one sum of powers, in the fields that they are of and in no
+/// other.
 #[test]
 fn complex_numbers_are_sums_of_powers() {
     for n in 1..40_i64 {
