@@ -2,11 +2,11 @@
 
 use crate::error::Error;
 use crate::progress::each;
-use crate::schemes::{SchemeName, Tuner};
+use crate::schemes::{SchemeName, Tuner, distinct};
 use crate::spectrum::Analysis;
 use crate::table::{Format, Table, WIDTH};
-use eigenring_scheme::Scheme;
-use eigenring_spectral::outer;
+use eigenring_scheme::{Corner, Scheme};
+use eigenring_spectral::{Extended, outer};
 use eigenring_tune::quality::Quality;
 
 /// Gauss points per patch and direction, as in the tuning.
@@ -45,18 +45,19 @@ pub struct Row {
 }
 
 impl Row {
-    /// Measures a scheme; `name` is what it is called.
+    /// Measures a scheme, whose multiplicities are told from its rules in more precision, if these are known;
+    /// `name` is what it is called.
     ///
     /// # Errors
     /// Those of its local system. Maps that do not exist are no error, but a remark.
-    pub fn new(name: &str, scheme: &Scheme<f64>) -> Result<Self, Error> {
+    pub fn new(name: &str, scheme: &Scheme<f64>, extended: Option<&Scheme<Extended>>) -> Result<Self, Error> {
         // the eigenvalues that `spectrum` prints
         let Analysis {
             system,
             spectrum,
             closed,
             ..
-        } = Analysis::of_scheme(scheme, None, None)?;
+        } = Analysis::of_rules(scheme, extended, None, None)?;
         let rings = system.numbering().rings;
         let beyond = match closed {
             Some((closed, outer)) if closed == rings => outer,
@@ -137,12 +138,28 @@ pub fn compare(schemes: &[SchemeName], valences: &[usize], tuner: &Tuner<'_>) ->
         .collect();
     // what must be tuned is tuned one after the other: all threads work on each, and it is remembered for the
     // next
-    let found: Vec<Scheme<f64>> = pairs
+    let found: Vec<(Scheme<f64>, Option<Scheme<Extended>>)> = pairs
         .into_iter()
-        .map(|(valence, scheme)| scheme.scheme(valence, tuner))
+        .map(|(valence, scheme)| {
+            let corner = Corner::closed(scheme.centre()?, valence)?;
+            Ok((scheme.scheme(valence, tuner)?, scheme.extended(&corner)?))
+        })
         .collect::<Result<_, Error>>()?;
-    each(tuner.progress, "schemes", &found, |scheme| {
-        Row::new(scheme.name(), scheme)
+    // a scheme has the same name at all valences
+    let names: Vec<&str> = found
+        .iter()
+        .take(schemes.len())
+        .map(|(scheme, _)| scheme.name())
+        .collect();
+    let called = distinct(schemes, &names);
+    if let Some((called, name)) = called.iter().zip(&names).find(|(called, name)| called != name) {
+        tuner.progress.note(&format!(
+            "several schemes are called {name}: their files tell them apart, as in {called}"
+        ));
+    }
+    let found: Vec<_> = found.iter().zip(called.iter().cycle()).collect();
+    each(tuner.progress, "schemes", &found, |((scheme, extended), called)| {
+        Row::new(called, scheme, extended.as_ref())
     })
 }
 

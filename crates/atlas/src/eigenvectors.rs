@@ -47,6 +47,7 @@ impl<'a> Eigenvectors<'a> {
     /// do not tell eigenvectors of different eigenvalues apart; those of the modes.
     pub fn new(analysis: &'a Analysis) -> Result<Self, Error> {
         let system = &analysis.system;
+        crate::matrix::check_size(system.numbering().count())?;
         if let Some(e) = analysis.spectrum.eigenvalues.iter().find(|e| e.is_defective()) {
             let sizes = analysis
                 .jordan(e)

@@ -59,6 +59,7 @@ mod error;
 pub mod figures;
 pub mod files;
 pub mod given;
+pub mod glossary;
 pub mod index;
 pub mod limits;
 pub mod matrix;

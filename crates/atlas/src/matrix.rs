@@ -13,6 +13,18 @@ use serde_json::{Value, json};
 /// A dense matrix beyond this many entries (800 MB) is a typing error.
 const MAX_ENTRIES: usize = 100_000_000;
 
+/// Refuses a dense matrix of so many rows that is too large.
+pub(crate) fn check_size(rows: usize) -> Result<(), Error> {
+    if rows.saturating_mul(rows) <= MAX_ENTRIES {
+        return Ok(());
+    }
+    Err(Error::Range {
+        what: "matrix size",
+        given: format!("{rows} x {rows}"),
+        accepted: format!("at most {MAX_ENTRIES} entries: fewer rings or a smaller valence"),
+    })
+}
+
 /// A local matrix.
 #[derive(Clone, Debug)]
 pub struct LocalMatrix {
@@ -58,13 +70,7 @@ impl LocalMatrix {
         };
         let numbering = scheme.numbering(rings);
         let count = numbering.count();
-        if count.saturating_mul(count) > MAX_ENTRIES {
-            return Err(Error::Range {
-                what: "matrix size",
-                given: format!("{count} x {count}"),
-                accepted: format!("at most {MAX_ENTRIES} entries: fewer rings or a smaller valence"),
-            });
-        }
+        check_size(count)?;
         Ok(LocalMatrix {
             name: scheme.name().to_owned(),
             numbering,

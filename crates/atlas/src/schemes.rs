@@ -208,6 +208,9 @@ impl SchemeFile {
             reason,
             accepted: FILE.to_owned(),
         };
+        if path.is_empty() {
+            return Err(refuse("no path is given".to_owned()));
+        }
         let pieces = rest.split(',').filter(|piece| !piece.is_empty());
         let values = pieces.map(|piece| setting(piece).map_err(refuse));
         Ok(SchemeFile {
@@ -281,7 +284,7 @@ impl SchemeName {
     /// lambda-scheme is not tabulated.
     pub fn scheme(&self, valence: usize, tuner: &Tuner<'_>) -> Result<Scheme<f64>, Error> {
         match self {
-            SchemeName::File(file) => Ok(file.read(Reading::default())?.scheme(valence)?),
+            SchemeName::File(file) => self.blamed(file.read(Reading::default())?.scheme(valence)),
             SchemeName::Spec(spec) => match tuner.member(spec, valence)? {
                 Some(member) => Ok(member.scheme(spec.to_string())?),
                 None => Ok(spec.scheme(valence)?),
@@ -333,7 +336,18 @@ impl SchemeName {
         {
             return Ok(member.scheme(spec.to_string())?);
         }
-        Ok(definition.around(corner)?)
+        self.blamed(definition.around(corner))
+    }
+
+    /// What went wrong with the rules, with the file that they are of.
+    ///
+    /// # Errors
+    /// Those of the result.
+    pub fn blamed<T, E: Into<Error>>(&self, result: Result<T, E>) -> Result<T, Error> {
+        result.map_err(|error| match self {
+            SchemeName::File(file) => error.into().in_file(&file.path),
+            SchemeName::Spec(_) => error.into(),
+        })
     }
 
     /// The rules around a corner in numbers from which multiplicities can be told; `None` for a member of the
@@ -346,7 +360,22 @@ impl SchemeName {
         if lambda && corner.is_plain() {
             return Ok(None);
         }
-        Ok(Some(self.definition(Reading::default())?.around(corner)?))
+        let definition = self.definition(Reading::default())?;
+        self.blamed(definition.around(corner)).map(Some)
+    }
+
+    /// The valence that a scheme file is for, if it is for one alone.
+    ///
+    /// # Errors
+    /// Those of reading the file.
+    pub fn only_valence(&self) -> Result<Option<usize>, Error> {
+        let SchemeName::File(file) = self else { return Ok(None) };
+        let scheme = file.read(Reading::default())?;
+        let mut listed = scheme.valences();
+        Ok(match (listed.next(), listed.next(), scheme.rule()) {
+            (only, None, None) => only,
+            _ => None,
+        })
     }
 
     /// What the scheme has in the middle of its closed fans.
@@ -367,6 +396,19 @@ impl SchemeName {
             SchemeName::File(_) => Ok(None),
         }
     }
+}
+
+/// What schemes are called side by side, given their names: the path follows the name of a file if another
+/// scheme has the same.
+pub fn distinct(schemes: &[SchemeName], names: &[&str]) -> Vec<String> {
+    let shared = |name: &str| names.iter().filter(|other| **other == name).count() > 1;
+    let pairs = schemes.iter().zip(names);
+    pairs
+        .map(|(scheme, &name)| match scheme {
+            SchemeName::File(file) if shared(name) => format!("{name} ({})", file.path.display()),
+            _ => name.to_owned(),
+        })
+        .collect()
 }
 
 /// Reads a scheme file, which is named after its file unless it names itself.

@@ -2,9 +2,10 @@
 //! has.
 
 use crate::error::Error;
+use crate::schemes::{SchemeName, Tuner};
 use crate::table::{Format, Record, Table, short};
-use eigenring_scheme::{Corner, Lattice, Scheme, Site};
-use eigenring_spectral::{Eigenvalue, Extended, LocalSystem, Matrix, Spectrum, Sufficient, outer};
+use eigenring_scheme::{Corner, Lattice, Level, Scheme, Site, Symmetry};
+use eigenring_spectral::{Eigenvalue, Extended, LocalSystem, Matrix, Spectrum, Sufficient, numbering, outer};
 use serde_json::{Map, Value, json};
 
 /// The most rings that are taken for meant: a block of 64 rings has 4160 rows.
@@ -16,6 +17,26 @@ const CIRCULANT_TOLERANCE: f64 = 1e-9;
 
 /// Row sums further than this from 1 are worth a warning: beyond the rounding of printed weights.
 const AFFINE: f64 = 1e-12;
+
+/// Fourier blocks, or a matrix without them, beyond this many entries (1.6 GB) are a typing error.
+const MAX_ENTRIES: usize = 200_000_000;
+
+/// Refuses blocks that are too large together.
+fn check_size(level: &Level<f64>, rings: usize) -> Result<(), Error> {
+    let (count, sectors) = (numbering(level, rings).count(), level.fan().sectors());
+    let (size, blocks) = match level.symmetry() {
+        Symmetry::None => (count, 1),
+        _ => (count.div_ceil(sectors), sectors / 2 + 1),
+    };
+    if size.saturating_mul(size).saturating_mul(blocks) <= MAX_ENTRIES {
+        return Ok(());
+    }
+    Err(Error::Range {
+        what: "size of the blocks",
+        given: format!("{blocks} of {size} x {size}"),
+        accepted: format!("at most {MAX_ENTRIES} entries: fewer rings or a smaller valence"),
+    })
+}
 
 /// Refuses rings out of range, given the smallest closed number.
 ///
@@ -81,6 +102,7 @@ impl Analysis {
         let number = level.map_or(leading, |level| level.min(leading));
         let level = scheme.level(number);
         let closed = scheme.closed_rings()?;
+        check_size(level, rings.unwrap_or(closed))?;
         let (system, outer) = match rings {
             Some(rings) => (
                 LocalSystem::new(level, check_rings(rings, closed)?)?,
@@ -105,34 +127,42 @@ impl Analysis {
         })
     }
 
-    /// The same of a scheme around a corner, which is named in what is printed.
+    /// The same of a scheme by name around a corner, which is named in what is printed: what every command
+    /// says of its eigenvalues.
     ///
     /// # Errors
-    /// As [`Analysis::of_scheme`].
-    pub fn of_corner(
-        scheme: &Scheme<f64>,
-        extended: Option<&Scheme<Extended>>,
+    /// As [`Analysis::of_scheme`], and those of the name.
+    pub fn of_name(
+        name: &SchemeName,
         corner: &Corner,
-        rings: Option<usize>,
-        level: Option<usize>,
+        [rings, level]: [Option<usize>; 2],
+        tuner: &Tuner<'_>,
     ) -> Result<Self, Error> {
+        let (scheme, extended) = (name.around(corner, tuner)?, name.extended(corner)?);
         Ok(Analysis {
             corner: corner.to_string(),
-            ..Self::of_rules(scheme, extended, rings, level)?
+            ..Self::of_rules(&scheme, extended.as_ref(), rings, level)?
         })
     }
 
     /// Analyses a matrix of a valence, whose points are in the order of the
-    /// [`Numbering`](eigenring_scheme::Numbering).
+    /// [`Numbering`](eigenring_scheme::Numbering), and whose entries are known to `rounding` relative to the
+    /// largest.
     ///
     /// # Errors
     /// Those of [`LocalSystem::from_matrix`] and of the decomposition.
-    pub fn of_matrix(name: impl Into<String>, matrix: &Matrix<f64>, valence: usize) -> Result<Self, Error> {
+    pub fn of_matrix(
+        name: impl Into<String>,
+        matrix: &Matrix<f64>,
+        valence: usize,
+        rounding: f64,
+    ) -> Result<Self, Error> {
         let system = LocalSystem::from_matrix(matrix, valence, CIRCULANT_TOLERANCE)?;
+        let fourier = system.symmetric().then_some(valence);
         Ok(Analysis {
             name: name.into(),
             corner: "closed".to_owned(),
-            spectrum: system.spectrum()?,
+            spectrum: Spectrum::of_blocks(system.blocks(), fourier, rounding)?,
             system,
             level: None,
             closed: None,

@@ -3,10 +3,22 @@
 //! eigenvalues of double arithmetic; the spectrum's list is read here by hand.
 
 use eigenring_atlas::compare::Row;
+use eigenring_atlas::eigenvectors::Eigenvectors;
+use eigenring_atlas::figures::{self, Inputs, Studies};
+use eigenring_atlas::matrix::LocalMatrix;
+use eigenring_atlas::progress::Silent;
+use eigenring_atlas::schemes::{SchemeName, Tuner};
 use eigenring_atlas::spectrum::Analysis;
+use eigenring_atlas::stencil::objective;
+use eigenring_atlas::tune::at;
 use eigenring_certify::{Input, Statement, Status, certify};
+use eigenring_scheme::lambda::Member;
 use eigenring_scheme::user::{Reading, UserScheme};
-use eigenring_scheme::{Scheme, Spec, registry};
+use eigenring_scheme::{Corner, Scheme, Spec, registry};
+use eigenring_spectral::Extended;
+use eigenring_tune::objective::Settings;
+use eigenring_tune::sweep::Options;
+use serde_json::Value;
 
 /// Enclosures are up to 1e-12 wide; eigenvalues of double arithmetic with a vector each are closer still.
 const ROUNDING: f64 = 1e-9;
@@ -18,17 +30,26 @@ fn close(a: f64, b: f64) -> bool {
     (a - b).abs() <= ROUNDING * a.abs().max(b.abs()).max(1e-3)
 }
 
+/// The rules of a scheme by name, in both precisions.
+fn rules(name: &str, valence: usize) -> (Scheme<f64>, Option<Scheme<Extended>>) {
+    let name: SchemeName = name.parse().unwrap();
+    let corner = Corner::closed(name.centre().unwrap(), valence).unwrap();
+    let scheme = name.around(&corner, &Tuner::default()).unwrap();
+    (scheme, name.extended(&corner).unwrap())
+}
+
 #[test]
 fn compare_says_what_certificates_and_spectra_say() {
     let (mut strict, mut tied) = (0, 0);
     for example in registry().iter().flat_map(|family| family.examples) {
         for valence in 3..=12 {
             let spec: Spec = example.parse().unwrap();
-            let scheme: Scheme<f64> = spec.scheme(valence).unwrap();
-            let row = Row::new(example, &scheme).unwrap();
+            let (scheme, extended) = rules(example, valence);
+            let row = Row::new(example, &scheme, extended.as_ref()).unwrap();
             let place = format!("{example} at N = {valence}: {row:?}");
 
-            let list = Analysis::of_scheme(&scheme, None, None).unwrap().spectrum.eigenvalues;
+            let analysis = Analysis::of_rules(&scheme, extended.as_ref(), None, None).unwrap();
+            let list = analysis.spectrum.eigenvalues;
             let lambda = list[1].modulus();
             let mu = list[2..]
                 .iter()
@@ -70,13 +91,158 @@ fn compare_says_what_certificates_and_spectra_say() {
     assert!(strict > 60 && tied > 10, "{strict} and {tied}");
 }
 
+/// What spectrum, eigenvectors, matrix, objective and the tables of figures print of a scheme is what compare
+/// prints, wherever two of them print the same.
+#[test]
+fn other_commands_say_what_compare_says() {
+    let examples: Vec<&str> = registry().iter().flat_map(|family| family.examples).copied().collect();
+    let tuner = Tuner::default();
+    let mut objectives = 0;
+    for example in &examples {
+        let name: SchemeName = example.parse().unwrap();
+        for valence in 3..=12 {
+            let (scheme, extended) = rules(example, valence);
+            let place = format!("{example} at N = {valence}");
+            let row = Row::new(example, &scheme, extended.as_ref()).unwrap();
+            let corner = Corner::closed(name.centre().unwrap(), valence).unwrap();
+            let analysis = Analysis::of_name(&name, &corner, [None; 2], &tuner).unwrap();
+            let json = analysis.json();
+            assert!(
+                close(json["subdominant"].as_f64().unwrap().abs(), row.lambda.unwrap()),
+                "{place}"
+            );
+            assert_eq!(json["s"].as_f64(), row.ratio, "{place}");
+            // the matrix has the trace of the eigenvalues, and the limit stencil is its left eigenvector
+            let rings = analysis.system.numbering().rings;
+            let LocalMatrix { matrix, .. } = LocalMatrix::new(&scheme, Some(rings), None).unwrap();
+            let trace: f64 = (0..matrix.rows()).map(|i| matrix[(i, i)]).sum();
+            let sum: f64 = analysis
+                .spectrum
+                .eigenvalues
+                .iter()
+                .map(|e| e.value.0 * e.multiplicity as f64)
+                .sum();
+            assert!(
+                (trace - sum).abs() < 1e-10 * matrix.rows() as f64,
+                "{place}: {trace} {sum}"
+            );
+            let position = json["limit_stencils"]["position"].as_array();
+            if let Some(position) = position {
+                let weights: Vec<f64> = position.iter().map(|w| w.as_f64().unwrap()).collect();
+                for (j, weight) in weights.iter().enumerate() {
+                    let image: f64 = (0..matrix.rows()).map(|i| weights[i] * matrix[(i, j)]).sum();
+                    assert!((image - weight).abs() < 1e-12, "{place}");
+                }
+            }
+            // a defective matrix has no such list
+            if let Ok(vectors) = Eigenvectors::new(&analysis) {
+                let listed = vectors.vectors.iter().map(|v| (v.value.0, v.value.1.abs()));
+                let repeated = analysis.spectrum.eigenvalues.iter();
+                let repeated = repeated.flat_map(|e| std::iter::repeat_n((e.value.0, e.value.1.abs()), e.multiplicity));
+                assert!(listed.eq(repeated), "{place}");
+            }
+            if let Some(member) = name.member(valence, &tuner).unwrap() {
+                let settings = Settings {
+                    weighted: false,
+                    ..Settings::default()
+                };
+                let (record, _) = objective(&member, settings).unwrap();
+                let record = record.json();
+                let number = |field: &str| record[field].as_f64().unwrap();
+                assert!(
+                    close(number("total"), row.total.unwrap()),
+                    "{place}: {record:?}, {row:?}"
+                );
+                assert!(close(number("sign_change"), row.sign_change.unwrap()), "{place}");
+                assert!(
+                    close(number("lambda"), row.lambda.unwrap()) || row.lambda.unwrap() > number("lambda"),
+                    "{place}"
+                );
+                objectives += 1;
+            }
+        }
+    }
+    assert!(objectives >= 20, "{objectives}");
+}
+
+/// The tables of figures have the eigenvalues that `spectrum` prints.
+#[test]
+fn tables_of_figures_say_what_spectra_say() {
+    let tuner = Tuner::default();
+    let schemes: Vec<SchemeName> = ["catmull-clark", "stam:order=12", "doo-sabin", "lambda:lambda=0.5"]
+        .map(|name| name.parse().unwrap())
+        .to_vec();
+    let studies = Studies::load(None, &[], &Silent).unwrap();
+    for name in ["spectrum", "characteristic-map", "natural-configurations"] {
+        let entry = figures::find(name).unwrap();
+        let inputs = Inputs {
+            valences: &[3, 5],
+            lambdas: &[],
+            schemes: &schemes,
+            colours: entry.colours,
+            range: (0.15, 0.9),
+            width: entry.width,
+            studies: &studies,
+            tuner: &tuner,
+        };
+        let drawing = (entry.build)(&inputs).unwrap().remove(0);
+        let rows = drawing.data[0].1.json();
+        for scheme in &schemes {
+            for valence in [3, 5] {
+                let corner = Corner::closed(scheme.centre().unwrap(), valence).unwrap();
+                let analysis = Analysis::of_name(scheme, &corner, [None; 2], &tuner).unwrap();
+                let of = |row: &&Value| row["scheme"] == analysis.name.as_str() && row["valence"] == valence;
+                let rows: Vec<&Value> = rows.as_array().unwrap().iter().filter(of).collect();
+                let place = format!("{name}: {} at N = {valence}", analysis.name);
+                assert!(!rows.is_empty(), "{place}");
+                if name == "spectrum" {
+                    let listed = rows.iter().map(|row| {
+                        let number = |field: &str| row[field].as_f64().unwrap();
+                        (
+                            number("re"),
+                            number("im"),
+                            row["multiplicity"].as_u64(),
+                            row["geometric"].as_u64(),
+                        )
+                    });
+                    let known = analysis.spectrum.eigenvalues.iter();
+                    let known = known.map(|e| {
+                        let geometric = e.geometric.map(|count| count as u64);
+                        (e.value.0, e.value.1, Some(e.multiplicity as u64), geometric)
+                    });
+                    assert!(listed.eq(known), "{place}");
+                } else {
+                    let of_block_1 = analysis.spectrum.eigenvalues.iter().find(|e| e.fourier == Some(1));
+                    let lambda = of_block_1.unwrap().modulus();
+                    assert!(
+                        rows.iter().all(|row| close(row["lambda"].as_f64().unwrap(), lambda)),
+                        "{place}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// What `tune` finds is what `objective` says of it.
+#[test]
+fn tuned_stencils_have_their_objective() {
+    let options = Options::default();
+    let record = at(6, 0.5, &options).unwrap().record.json();
+    let number = |field: &str| record[field].as_f64().unwrap();
+    let weights = [number("f2"), number("f3")];
+    let member = Member::given(6, number("lambda"), Some(number("s")), weights).unwrap();
+    let (found, _) = objective(&member, options.settings).unwrap();
+    assert!(close(found.json()["total"].as_f64().unwrap(), number("total")));
+}
+
 /// One scheme under two names.
 #[test]
 fn catmull_clark_is_stam_of_order_four() {
     for valence in 3..=12 {
         let row = |name: &str| {
-            let scheme = name.parse::<Spec>().unwrap().scheme(valence).unwrap();
-            Row::new("", &scheme).unwrap()
+            let (scheme, extended) = rules(name, valence);
+            Row::new("", &scheme, extended.as_ref()).unwrap()
         };
         let (one, other) = (row("catmull-clark"), row("stam:order=4"));
         for (a, b) in [
@@ -121,7 +287,7 @@ fn a_subdominant_eigenvalue_of_another_block_is_said_to_be() {
     assert!(json["s"].is_null() && json["limit_stencils"]["tangent_x"].is_null());
     assert!(json["limit_stencils"]["position"].is_array());
     assert!(analysis.text().contains("note: the subdominant eigenvalue") && analysis.text().contains("index 0, not 1"));
-    let row = Row::new("stray", &scheme).unwrap();
+    let row = Row::new("stray", &scheme, None).unwrap();
     assert!(close(row.lambda.unwrap(), lambda.modulus()));
     assert_eq!((row.ratio, row.total, row.theta, row.strict), (None, None, None, None));
     assert!(row.remark.contains("Fourier index 0, not 1"), "{}", row.remark);

@@ -68,11 +68,11 @@ impl CornerArgs {
         }
     }
 
-    /// The shape at a valence, and in how many steps creases act.
+    /// The shape at a valence, which a scheme's file may fix, and in how many steps creases act.
     ///
     /// # Errors
-    /// A valence that is missing or is not that of the shape.
-    pub fn shape(&self, valence: Option<usize>) -> Result<(Shape, Option<usize>), Error> {
+    /// A valence that is missing or is not that of the shape; those of reading the file.
+    pub fn shape(&self, valence: Option<usize>, scheme: &SchemeName) -> Result<(Shape, Option<usize>), Error> {
         // the parser lets an option pass whose partner conflicts with another one
         if self.corner && self.fan.is_none() {
             return Err(Error::usage(
@@ -93,7 +93,7 @@ impl CornerArgs {
             }
             (Some((_, sectors)), _) => sectors,
             (None, Some(valence)) => valences::of_scheme(valence)?,
-            (None, None) => return Err(valences::missing()),
+            (None, None) => only_valence(scheme)?,
         };
         let shape = if self.fan.is_some() {
             Shape::Fan {
@@ -140,6 +140,14 @@ impl CornerArgs {
             None => Ok(()),
         }
     }
+}
+
+/// The valence of a scheme whose file is for one alone.
+///
+/// # Errors
+/// No valence, where the scheme has several; those of reading the file.
+pub fn only_valence(scheme: &SchemeName) -> Result<usize, Error> {
+    scheme.only_valence()?.ok_or_else(valences::missing)
 }
 
 /// Values for the parameters of scheme files.
@@ -244,6 +252,21 @@ impl Schemes {
             }
         }
         Ok(all)
+    }
+
+    /// The valence that the files among them are for, if there are such files and they agree.
+    ///
+    /// # Errors
+    /// Those of reading the files.
+    pub fn only_valence(&self) -> Result<Option<usize>, Error> {
+        let mut found = None;
+        for scheme in self.lists.iter().flat_map(|list| &list.0) {
+            match (found, scheme.only_valence()?) {
+                (Some(one), Some(other)) if one != other => return Ok(None),
+                (_, only) => found = only.or(found),
+            }
+        }
+        Ok(found)
     }
 
     /// Whether any was given.

@@ -50,8 +50,22 @@ impl From<eigenring_spline::Error> for Error {
 }
 
 fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+    let words = text.split_whitespace().map(|word| {
+        let ends = |letter: char| !letter.is_ascii_digit() && letter != '.';
+        let number = word.trim_matches(ends);
+        match number.parse::<f64>() {
+            // hundreds of zeros say less than an exponent
+            Ok(value) if number.len() > LONG && value.is_finite() && !word.contains('/') => {
+                word.replace(number, &format!("{value:e}"))
+            }
+            _ => word.to_owned(),
+        }
+    });
+    words.collect::<Vec<_>>().join(" ")
 }
+
+/// Characters of the longest number that is printed digit by digit: those of all digits of a double.
+const LONG: usize = 24;
 
 impl Error {
     /// A combination of arguments that makes no sense.

@@ -39,11 +39,10 @@ fn main() -> ExitCode {
     match result {
         Ok(verdict) => verdict,
         Err(error) => {
-            if json {
-                eprintln!("{}", error.json());
-            } else {
-                eprintln!("error: {}", error.line());
-            }
+            progress::say(&match json {
+                true => error.json(),
+                false => format!("error: {}", error.line()),
+            });
             ExitCode::from(2)
         }
     }

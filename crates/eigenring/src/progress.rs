@@ -5,7 +5,7 @@
 
 use eigenring_atlas::progress::{Progress, Task};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::sync::LazyLock;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
@@ -100,7 +100,8 @@ pub fn pause<T>(work: impl FnOnce() -> T) -> T {
 
 /// A line on standard error, above the bars.
 pub fn say(text: &str) {
-    pause(|| eprintln!("{text}"));
+    // whoever does not listen is not told
+    pause(|| drop(writeln!(std::io::stderr(), "{text}")));
 }
 
 /// A remark on standard error, above the bars.

@@ -316,6 +316,30 @@ fn tables_come_out_in_every_format() {
     }
 }
 
+/// Help texts quote the glossary, which is a command and a topic of help itself.
+#[test]
+fn help_quotes_the_glossary() {
+    let place = Place::new();
+    let plain = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let page = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/glossary.md")).unwrap();
+    let page = page.replace(['`', '*'], "");
+    let topic = plain(&place.ok(&["help", "glossary"]));
+    let printed = plain(&place.ok(&["glossary"]));
+    let mut quoted = 0;
+    for row in page.lines().filter(|line| line.starts_with("| ")).skip(1) {
+        let cells: Vec<&str> = row.trim_matches('|').split(" | ").map(str::trim).collect();
+        let entry = plain(&format!("{}: {}", cells[0], cells[1]));
+        assert!(topic.contains(&entry) && printed.contains(&entry), "{entry}\n{topic}");
+        for command in ["compare", "spectrum", "verify", "tune", "objective"] {
+            let help = plain(&place.ok(&[command, "--help"]));
+            let wanted = cells[2].split([',', ';', ' ']).any(|word| word == command);
+            assert_eq!(help.contains(&entry), wanted, "{command}: {entry}");
+            quoted += usize::from(wanted);
+        }
+    }
+    assert!(quoted > 15, "{quoted}");
+}
+
 #[test]
 fn help_has_examples_and_no_escape_sequences() {
     let place = Place::new();

@@ -101,6 +101,46 @@ fn devices_are_written_into() {
     assert!(std::fs::metadata("/dev/null").unwrap().file_type().is_char_device());
     let (text, stderr) = ok(&place, "matrix --scheme catmull-clark -N 5 -o /dev/stdout");
     assert!(text.starts_with("%%MatrixMarket") && stderr.is_empty(), "{stderr}");
+    let (text, stderr) = ok(&place, "plot weighting --format svg -o /dev/stdout");
+    assert!(text.starts_with("<svg") && text.ends_with("</svg>\n"), "{stderr}");
+}
+
+#[cfg(unix)]
+#[test]
+fn named_pipes_are_written_into() {
+    use std::os::unix::fs::FileTypeExt;
+    let place = Place::new();
+    let pipe = place.path().join("pipe");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.is_ok_and(|status| status.success()));
+    for (line, start) in [
+        ("matrix --scheme catmull-clark -N 5 -o pipe", "%%MatrixMarket"),
+        ("compare --schemes catmull-clark -N 5 --format csv -o pipe", "valence,"),
+        ("verify --scheme catmull-clark -N 5 -o pipe", "{"),
+        ("plot weighting --format pdf -o pipe", "%PDF"),
+        ("make cube -o pipe", ""),
+    ] {
+        if line.starts_with("make") {
+            // a mesh file's format is its extension, and a refusal leaves the pipe alone too
+            refused(&place, line);
+        } else {
+            let (source, wanted) = (pipe.clone(), start.to_owned());
+            let reader = std::thread::spawn(move || {
+                let bytes = std::fs::read(source).unwrap();
+                assert!(
+                    bytes.starts_with(wanted.as_bytes()) && bytes.len() > 50,
+                    "{} bytes",
+                    bytes.len()
+                );
+            });
+            ok(&place, line);
+            reader.join().unwrap();
+        }
+        let there = std::fs::symlink_metadata(&pipe).unwrap();
+        assert!(there.file_type().is_fifo(), "{line}");
+    }
+    let names: Vec<_> = std::fs::read_dir(place.path()).unwrap().collect();
+    assert_eq!(names.len(), 1, "{names:?}");
 }
 
 #[test]
@@ -224,6 +264,67 @@ fn a_scheme_file_has_one_name_and_any_path() {
         "plot characteristic-map --schemes file:\"a,b.toml\" --valences 5 --format svg",
     );
     assert!(!names.contains("a,b"), "{names}");
+}
+
+/// A file for one valence fixes it, for every command that asks for one.
+#[test]
+fn a_file_for_one_valence_needs_no_option() {
+    let place = Place::new();
+    place.write("mine.toml", CATMULL_CLARK_5);
+    place.write("six.toml", CATMULL_CLARK_5.replace("n = 5", "n = 6"));
+    for line in [
+        "spectrum --scheme file:mine.toml",
+        "matrix --scheme file:mine.toml",
+        "eigenvectors --scheme file:mine.toml",
+        "verify --scheme file:mine.toml",
+        "compare --schemes file:mine.toml,catmull-clark",
+    ] {
+        assert_eq!(ok(&place, line).0, ok(&place, &format!("{line} -N 5")).0, "{line}");
+    }
+    assert!(refused(&place, "spectrum --scheme file:mine.toml -N 6").contains("accepted"));
+    // two that disagree fix nothing
+    refused(&place, "compare --schemes file:mine.toml,file:six.toml");
+    let two = format!(
+        "{CATMULL_CLARK_5}{}",
+        &CATMULL_CLARK_5[CATMULL_CLARK_5.find("[[").unwrap()..].replace("n = 5", "n = 6")
+    );
+    place.write("two.toml", two);
+    assert!(refused(&place, "spectrum --scheme file:two.toml").contains("no valence is given"));
+}
+
+/// Files of one name are told apart by their paths, and it is said that they are.
+#[test]
+fn files_of_the_same_name_are_told_apart() {
+    let place = Place::new();
+    std::fs::create_dir(place.path().join("other")).unwrap();
+    place.write("mine.toml", CATMULL_CLARK_5);
+    place.write(
+        "other/mine.toml",
+        CATMULL_CLARK_5.replace("1/20", "1/25").replace("3/10", "8/25"),
+    );
+    let schemes = "--schemes file:mine.toml,file:other/mine.toml,doo-sabin -N 5";
+    let (text, said) = ok(&place, &format!("compare {schemes} --format json"));
+    let rows: Value = serde_json::from_str(&text).unwrap();
+    let names: Vec<&str> = rows
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|row| row["scheme"].as_str().unwrap())
+        .collect();
+    assert_eq!(names, ["mine (mine.toml)", "mine (other/mine.toml)", "doo-sabin"]);
+    assert!(said.contains("several schemes are called mine"), "{said}");
+    ok(
+        &place,
+        &format!("plot natural-configurations {schemes} --format svg --out ."),
+    );
+    let csv = place.read("natural-configurations.csv");
+    for name in names {
+        assert!(
+            csv.lines().any(|line| line.starts_with(&format!("{name},5,"))),
+            "{name}"
+        );
+    }
+    assert!(place.read("natural-configurations.svg").contains("other/mine.toml"));
 }
 
 #[test]

@@ -46,6 +46,82 @@ fn out_of_range(place: &Place, line: &str) -> (String, String) {
     (message, accepted)
 }
 
+/// A reader of errors that has gone away is no error, and numbers have no hundreds of zeros.
+#[test]
+fn errors_nobody_reads_and_tiny_numbers() {
+    let place = Place::new();
+    place.write("empty.obj", "");
+    for line in [
+        "mesh empty.obj",
+        "spectrum --scheme catmull-clark -N 2",
+        "spectrum --matrix empty.obj",
+    ] {
+        let arguments: Vec<&str> = line.split(' ').collect();
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let status = place
+            .command(&arguments)
+            .stdout(writer.try_clone().unwrap())
+            .stderr(writer)
+            .status();
+        assert_eq!(status.unwrap().code(), Some(2), "{line}");
+    }
+    for line in [
+        "objective -N 6 --lambda 0.55 --f2 1e-300 --f3 0.2",
+        "spectrum --scheme catmull-clark -N 1000 --rings 64",
+        "eigenvectors --scheme catmull-clark -N 1000 --rings 3",
+        "spectrum --scheme file: -N 5",
+    ] {
+        let (message, _) = refused(&place, &line.split(' ').collect::<Vec<_>>());
+        assert!(message.len() < 400, "{message}");
+    }
+}
+
+/// What is divided by zero is named, with the scheme and the valence.
+#[test]
+fn divisors_that_vanish() {
+    let place = Place::new();
+    let scheme = "lambda:lambda=0.55,f2=0,f3=0.2";
+    for line in [
+        format!("spectrum -N 6 --scheme {scheme}"),
+        format!("matrix -N 6 --scheme {scheme} -o out.csv"),
+        format!("eigenvectors -N 6 --scheme {scheme} -o out.csv"),
+        format!("compare -N 6 --schemes {scheme}"),
+        format!("verify -N 6 --scheme {scheme}"),
+        format!("plot characteristic-map --valences 6 --schemes {scheme}"),
+    ] {
+        let run = place.run(&line.split(' ').collect::<Vec<_>>());
+        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{line}");
+        assert!(
+            run.stderr
+                .contains("the lambda-scheme has no weights at N = 6, lambda = 0.55, f2 = 0, f3 = 0.2: f2 vanishes"),
+            "{line}: {}",
+            run.stderr
+        );
+    }
+    let over = format!("verify -N 6 --scheme {scheme} --lambda-range 0.5..0.6");
+    assert!(
+        refused(&place, &over.split(' ').collect::<Vec<_>>())
+            .0
+            .contains("divide by f2")
+    );
+    let file = "kind = \"one-ring\"\n[parameters]\na = { default = \"3/2\", range = [\"0\", \"2\"] }\n[rule]\nn = \"3..\"\nf1 = \"1/4\"\nf2 = \"1/4\"\nf3 = \"1/4\"\nd1 = \"3/8\"\nd2 = \"3/8\"\ne1 = \"1/16\"\ne2 = \"1/16\"\nalpha = \"1/(n*a)\"\nbeta = \"1/((n-5)*n)\"\n";
+    place.write("v.toml", file);
+    for line in [
+        "spectrum -N 5 --scheme file:v.toml",
+        "compare -N 4..6 --schemes file:v.toml",
+        "verify -N 5 --scheme file:v.toml",
+        "verify -N 5 --scheme file:v.toml --range a=1..2",
+        "spectrum -N 5 --scheme file:v.toml --sweep a=1..2:3",
+    ] {
+        let (message, _) = refused(&place, &line.split(' ').collect::<Vec<_>>());
+        assert!(
+            message.starts_with("v.toml: line 15") && message.contains("division by zero at n = 5"),
+            "{line}: {message}"
+        );
+    }
+}
+
 #[test]
 fn numbers_out_of_range() {
     let place = Place::new();

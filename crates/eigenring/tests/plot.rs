@@ -232,6 +232,88 @@ fn options_choose_files_and_ranges() {
     assert_eq!(names.len(), 4);
 }
 
+/// One drawing in three formats; a single picture into a file.
+#[test]
+fn pictures_as_pages_and_into_files() {
+    let place = Place::new();
+    let names = plot(&place, "weighting --format pdf,svg --out .");
+    assert_eq!(names, ["./weighting.svg", "./weighting.pdf", "./weighting.csv"]);
+    let names = plot(&place, "weighting -o new.pdf --size one");
+    assert_eq!(names, ["new.pdf", "new.csv"]);
+    let names = plot(&place, "weighting -o other/new.PNG --dpi 40");
+    assert_eq!(names, ["other/new.PNG", "other/new.csv"]);
+    assert_eq!(place.read("new.csv"), place.read("weighting.csv"));
+    let pdf = std::fs::read(place.path().join("weighting.pdf")).unwrap();
+    let text = String::from_utf8_lossy(&pdf);
+    // 178 mm by 62 mm, of 72 points an inch
+    let start = text.find("/MediaBox [0 0 ").unwrap() + 15;
+    let size: Vec<f64> = text[start..]
+        .split(']')
+        .next()
+        .unwrap()
+        .split(' ')
+        .map(|n| n.parse().unwrap())
+        .collect();
+    assert!(
+        (size[0] - 178.0 / 25.4 * 72.0).abs() < 0.01 && (size[1] - 62.0 / 25.4 * 72.0).abs() < 0.01,
+        "{size:?}"
+    );
+    assert!(!text.contains("Date") && !text.contains("/Font"));
+    place.ok(&["curve", "--example", "circle", "--plot", "circle.pdf"]);
+    assert!(
+        std::fs::read(place.path().join("circle.pdf"))
+            .unwrap()
+            .starts_with(b"%PDF")
+    );
+    for (line, words) in [
+        ("plot weighting -o a.pdf --format svg", "disagrees with a.pdf"),
+        ("plot weighting -o a.pdf --format svg,pdf", "several formats"),
+        (
+            "plot second-order-maps --valences 5,6 --schemes catmull-clark -o a.pdf",
+            "2 pictures",
+        ),
+        ("plot weighting -o a.pdf --dpi 100", "--dpi has no meaning"),
+        ("curve --example circle --plot a.pdf --dpi 100", "--dpi"),
+    ] {
+        let message = refused(&place, line);
+        assert!(message.contains(words), "{line}: {message}");
+    }
+    assert!(!place.path().join("a.pdf").exists() && !place.path().join("a.csv").exists());
+    let list = place.ok(&["plot", "--list"]);
+    assert!(list.lines().all(|line| line.chars().count() <= 100), "{list}");
+}
+
+/// Maps of block 1 where another block has the subdominant eigenvalue say so, in their tables too.
+#[test]
+fn maps_of_a_pair_that_is_not_subdominant_say_so() {
+    let place = Place::new();
+    let rules = "f1 = \"1/4\"\nf2 = \"1/4\"\nf3 = \"1/4\"\nd1 = \"3/8\"\nd2 = \"3/8\"\ne1 = \"1/16\"\ne2 = \"1/16\"\nalpha = \"1/5\"\nbeta = \"1/30\"\n";
+    place.write(
+        "stray.toml",
+        format!("kind = \"one-ring\"\n[[valence]]\nn = 3\n{rules}"),
+    );
+    for figure in ["characteristic-map", "natural-configurations", "second-order-maps"] {
+        let line =
+            format!("plot {figure} --schemes file:stray.toml,catmull-clark --valences 3 --format svg --out {figure}");
+        let run = place.run(&line.split(' ').collect::<Vec<_>>());
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        assert!(
+            run.stderr
+                .contains("note: stray at N = 3: the subdominant eigenvalue 0.4293190377 is of Fourier index 0, not 1"),
+            "{}",
+            run.stderr
+        );
+        let csv = run.stdout.lines().find(|name| name.ends_with(".csv")).unwrap();
+        for row in csv_rows(&place.read(csv)) {
+            assert_eq!(
+                row["remark"].contains("index 0, not 1"),
+                row["scheme"] == "stray",
+                "{row:?}"
+            );
+        }
+    }
+}
+
 #[test]
 fn refusals() {
     let place = Place::new();
@@ -266,5 +348,5 @@ fn refusals() {
     for dpi in ["0", "NaN", "1e9"] {
         assert!(refused(&place, &format!("plot weighting --dpi {dpi}")).contains("20 to 2400"));
     }
-    assert!(refused(&place, "plot weighting --format gif").contains("svg, png"));
+    assert!(refused(&place, "plot weighting --format gif").contains("svg, png, pdf"));
 }

@@ -67,7 +67,7 @@ pub enum Error {
     /// The chart library refused the chart.
     #[error("the chart cannot be drawn: {0}")]
     Chart(String),
-    /// The rasteriser refused the drawing.
-    #[error("the drawing cannot be rasterised: {0}")]
+    /// The drawing is beyond what makes a PNG or a PDF of it.
+    #[error("the drawing cannot be converted: {0}")]
     Raster(String),
 }

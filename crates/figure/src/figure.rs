@@ -154,6 +154,14 @@ impl Figure {
         crate::raster::png(&self.svg()?, dpi)
     }
 
+    /// The figure as PDF: the SVG on one page of the printed size, with texts as outlines.
+    ///
+    /// # Errors
+    /// Those of [`Figure::svg`].
+    pub fn pdf(&self) -> Result<Vec<u8>, Error> {
+        crate::pdf::pdf(&self.svg()?, &self.description)
+    }
+
     /// Margins of a panel around its frame: its content's, title, colour bar and legend.
     fn margins(&self, panel: &Panel, about: [f64; 2], page: &Page) -> Result<Margins, Error> {
         let mut margins = match &panel.content {

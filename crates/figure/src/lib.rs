@@ -1,8 +1,8 @@
-//! Figures at printed size: charts, maps and surfaces as SVG and PNG.
+//! Figures at printed size: charts, maps and surfaces as SVG, PNG and PDF.
 //!
 //! The crate draws. It knows nothing of subdivision, reads and writes no files, and needs no font of the
 //! system: characters are outlines of an embedded DejaVu Sans. Axes, grids, ticks and series of charts are
-//! drawn by plotters. The PNG is the rasterised SVG. Equal figures give equal bytes.
+//! drawn by plotters. PNG and PDF are made from the SVG. Equal figures give equal bytes.
 //!
 //! A [`Figure`] is as wide as one or two printed columns and holds [`Panel`]s on a grid. A panel shows a
 //! [`Chart`] (two [`Axis`] and layers: lines, markers, bands, rules, coloured cells, texts) or a [`Surface`]
@@ -64,6 +64,7 @@ mod layers;
 mod layout;
 mod legend;
 mod panel;
+mod pdf;
 mod pixels;
 mod raster;
 mod scene;

@@ -27,6 +27,21 @@ pub enum Error {
         /// The lambda it was given for.
         lambda: f64,
     },
+    /// Weights of the lambda-scheme that are no numbers.
+    #[error(
+        "the lambda-scheme has no weights at N = {valence}, lambda = {lambda}, f2 = {}, f3 = {}: {divisor} vanishes, or is too small a number to divide by: accepted are other f2 and f3",
+        weights[0], weights[1]
+    )]
+    Divisor {
+        /// The valence.
+        valence: usize,
+        /// The subdominant eigenvalue.
+        lambda: f64,
+        /// The free weights f2 and f3.
+        weights: [f64; 2],
+        /// What is divided by.
+        divisor: &'static str,
+    },
     /// The rule for s asks for a mu that is not below lambda: what is out of range is the valence, and not an
     /// s that was given.
     #[error(

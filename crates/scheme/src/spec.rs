@@ -204,6 +204,18 @@ impl Spec {
     }
 }
 
+/// A number that reads back as it is, with an exponent where that is shorter by far.
+struct Short(f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0.abs() {
+            size if size == 0.0 || (1e-9..1e16).contains(&size) => write!(f, "{}", self.0),
+            _ => write!(f, "{:e}", self.0),
+        }
+    }
+}
+
 impl fmt::Display for Spec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -212,15 +224,15 @@ impl fmt::Display for Spec {
             Spec::DooSabinUniform => write!(f, "doo-sabin:uniform"),
             Spec::LambdaOptimal => write!(f, "lambda:optimal"),
             Spec::Lambda { lambda, s, weights } => {
-                write!(f, "lambda:lambda={lambda}")?;
+                write!(f, "lambda:lambda={}", Short(*lambda))?;
                 if let Some((f2, f3)) = weights {
-                    write!(f, ",f2={f2},f3={f3}")?;
+                    write!(f, ",f2={},f3={}", Short(*f2), Short(*f3))?;
                 }
-                s.map_or(Ok(()), |s| write!(f, ",s={s}"))
+                s.map_or(Ok(()), |s| write!(f, ",s={}", Short(s)))
             }
-            Spec::Tension { order, u0 } => write!(f, "tension:order={order},u0={u0}"),
+            Spec::Tension { order, u0 } => write!(f, "tension:order={order},u0={}", Short(*u0)),
             Spec::Stam { order } => write!(f, "stam:order={order}"),
-            Spec::Morin { u0 } => write!(f, "morin:u0={u0}"),
+            Spec::Morin { u0 } => write!(f, "morin:u0={}", Short(*u0)),
         }
     }
 }

@@ -239,7 +239,7 @@ mod tests {
                 .chain([dense])
             {
                 assert!(block.core() <= scheme.numbering(core).count(), "{}", block.core());
-                assert_eq!(block.sparse_nullity(), block.nullity(Complex::zero()).unwrap());
+                assert_eq!(block.sparse_nullity(), block.nullity(Complex::zero(), NULL).unwrap());
                 let whole = block.eigenvalues().unwrap();
                 let core = block.leading(block.core()).eigenvalues().unwrap();
                 for e in whole.iter().filter(|e| e.value.modulus() > 1e-9) {

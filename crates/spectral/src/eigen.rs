@@ -84,14 +84,14 @@ impl Block<f64> {
     }
 
     /// The number of independent eigenvectors of the given eigenvalue: as many as [`Block::eigenspace`] has,
-    /// without them.
+    /// with another bound in place of [`NULL`].
     ///
     /// # Errors
     /// [`Error::Decomposition`] as above.
-    pub fn nullity(&self, value: Complex<f64>) -> Result<usize, Error> {
+    pub(crate) fn nullity(&self, value: Complex<f64>, null: f64) -> Result<usize, Error> {
         match self.shifted(value) {
-            Shifted::Real(matrix) => nullity(matrix, value),
-            Shifted::Complex(matrix) => nullity(matrix, value),
+            Shifted::Real(matrix) => nullity(matrix, value, null),
+            Shifted::Complex(matrix) => nullity(matrix, value, null),
         }
     }
 
@@ -116,7 +116,7 @@ impl Block<f64> {
         let mut power = shifted.clone();
         let mut kernels = vec![0];
         loop {
-            let kernel = nullity(power.clone(), Complex::zero())?;
+            let kernel = nullity(power.clone(), Complex::zero(), NULL)?;
             let known = kernels[kernels.len() - 1];
             if kernel <= known || kernels.len() > shifted.nrows() {
                 break;
@@ -240,7 +240,7 @@ fn clusters(values: Vec<Complex<f64>>, radius: f64) -> Vec<BlockEigenvalue> {
 
 /// How many of the falling singular values of `S - value` are not zero: measured by the largest of them, and
 /// by the value, of which rounding leaves a trace where the block is a multiple of the identity.
-fn rank(singular: &[f64], value: Complex<f64>) -> Result<usize, Error> {
+fn rank(singular: &[f64], value: Complex<f64>, null: f64) -> Result<usize, Error> {
     let largest = singular.first().copied().unwrap_or(0.0);
     if !largest.is_finite() {
         return Err(Error::Decomposition {
@@ -249,16 +249,16 @@ fn rank(singular: &[f64], value: Complex<f64>) -> Result<usize, Error> {
         });
     }
     let scale = largest.max(value.modulus());
-    Ok(singular.iter().filter(|&&s| s > NULL * scale).count())
+    Ok(singular.iter().filter(|&&s| s > null * scale).count())
 }
 
-fn nullity<T: ComplexField<Real = f64>>(shifted: Mat<T>, value: Complex<f64>) -> Result<usize, Error> {
+fn nullity<T: ComplexField<Real = f64>>(shifted: Mat<T>, value: Complex<f64>, null: f64) -> Result<usize, Error> {
     let size = shifted.nrows();
     let singular = shifted.singular_values().map_err(|_| Error::Decomposition {
         size,
         largest: f64::NAN,
     })?;
-    Ok(size - rank(&singular, value)?)
+    Ok(size - rank(&singular, value, null)?)
 }
 
 fn eigenspace<T: ComplexField<Real = f64> + Copy>(
@@ -273,7 +273,7 @@ fn eigenspace<T: ComplexField<Real = f64> + Copy>(
         largest: f64::NAN,
     })?;
     let singular: Vec<f64> = (0..size).map(|i| pair(svd.S().column_vector()[i]).re).collect();
-    let rank = rank(&singular, value)?;
+    let rank = rank(&singular, value, NULL)?;
     if rank == size {
         return Err(Error::NotAnEigenvalue {
             value: value.re,

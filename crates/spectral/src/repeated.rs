@@ -9,7 +9,8 @@
 //!
 //! Everything is computed with [`Extended`] numbers. Where the rules themselves are known so well, order 32
 //! with eigenvalues that agree to 18 digits comes apart; a matrix of doubles has eigenvalues that are known
-//! to `2^-53`, and what its rounding could make of one eigenvalue is one.
+//! to `2^-53`, one with printed weights to their last digit, and what rounding could make of one eigenvalue
+//! is one.
 
 use crate::components::strong_components;
 use crate::eigen::order;
@@ -34,8 +35,8 @@ pub(crate) struct Repeated {
 /// How well the entries of a block are known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Precision {
-    /// To the precision of doubles.
-    Double,
+    /// To so much relative to the largest of them, and to that of doubles at best.
+    Rounded(f64),
     /// To that of [`Extended`].
     Extended,
 }
@@ -44,7 +45,7 @@ impl Precision {
     /// The rounding unit of the entries, with room for the operations that made them.
     fn unit(self) -> f64 {
         match self {
-            Precision::Double => 8.0 * f64::EPSILON,
+            Precision::Rounded(unit) => unit.max(8.0 * f64::EPSILON),
             Precision::Extended => UNIT,
         }
     }
@@ -52,7 +53,7 @@ impl Precision {
     /// Entries below this times the largest are rounding errors of zeros.
     fn negligible(self) -> f64 {
         match self {
-            Precision::Double => 1e-15,
+            Precision::Rounded(unit) => unit.max(1e-15),
             Precision::Extended => 8.0 * UNIT,
         }
     }
@@ -61,7 +62,7 @@ impl Precision {
     /// less far, up to an index of 2 in doubles, and of 6 otherwise.
     fn reach(self) -> f64 {
         match self {
-            Precision::Double => EQUAL,
+            Precision::Rounded(unit) => unit.sqrt().max(EQUAL),
             Precision::Extended => 1e-12,
         }
     }
@@ -71,7 +72,7 @@ impl Precision {
     /// matter of rounding: half the digits stand between.
     fn null(self) -> f64 {
         match self {
-            Precision::Double => crate::NULL,
+            Precision::Rounded(unit) => (64.0 * unit).max(crate::NULL),
             Precision::Extended => 1e-50,
         }
     }
@@ -119,7 +120,10 @@ pub(crate) fn repeated(block: &Block<Extended>, precision: Precision) -> Result<
     // complex blocks are decomposed in doubles
     let precision = match block {
         Block::Real(_) => precision,
-        Block::Complex(_) => Precision::Double,
+        Block::Complex(_) => match precision {
+            Precision::Extended => Precision::Rounded(0.0),
+            rounded => rounded,
+        },
     };
     let (mut parts, mut clusters, mut norm) = (Vec::new(), Vec::new(), 0.0_f64);
     for component in components {
@@ -170,8 +174,19 @@ pub(crate) fn repeated(block: &Block<Extended>, precision: Precision) -> Result<
         if cluster.mean.size() <= tolerance {
             cluster.mean = Complex::default();
         }
-        // the mean of a conjugate pair, or of what rounding made one
-        if cluster.mean.im.size() <= tolerance && matches!(block, Block::Real(_)) {
+        // the mean of a conjugate pair, or of what rounding made one; a complex block may be similar to a
+        // real one, and what its rounding could make of a real eigenvalue is real
+        let imaginary = cluster.mean.im.size();
+        let real = || Complex::new(cluster.mean.re, Extended::default());
+        if imaginary <= tolerance && matches!(block, Block::Real(_))
+            || imaginary <= cluster.reach
+                && matches!(block, Block::Complex(_))
+                && cluster.parts.iter().all(|&part| {
+                    parts[part]
+                        .distance(real())
+                        .is_some_and(|distance| distance <= tolerance)
+                })
+        {
             cluster.mean.im = Extended::default();
         }
     }
@@ -196,7 +211,7 @@ pub(crate) fn repeated(block: &Block<Extended>, precision: Precision) -> Result<
                 }
                 (count, Block::Complex(matrix)) => {
                     let doubles = matrix.map(|entry| entry.map(Extended::to_f64));
-                    Block::Complex(doubles).nullity(value)?.min(count)
+                    Block::Complex(doubles).nullity(value, precision.null())?.min(count)
                 }
             };
             Ok(Repeated {

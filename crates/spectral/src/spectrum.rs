@@ -3,7 +3,7 @@
 use crate::eigen::order;
 use crate::matrix::Assembly;
 use crate::repeated::{Precision, Repeated, repeated};
-use crate::{Block, BlockEigenvalue, Error, Extended, LocalSystem, SecondOrder, local_matrix};
+use crate::{Block, BlockEigenvalue, Error, Extended, LocalSystem, NULL, SecondOrder, local_matrix};
 use eigenring_scheme::{Complex, Level, Numbering};
 
 /// An eigenvalue of the local matrix.
@@ -71,7 +71,12 @@ impl LocalSystem {
     /// # Errors
     /// [`Error::Decomposition`] if an entry is not finite or an iteration fails.
     pub fn spectrum(&self) -> Result<Spectrum, Error> {
-        self.listed(|_, block| multiplicities(&block.lifted(), block, Precision::Double))
+        Spectrum::of_blocks(self.blocks(), self.fourier(), 0.0)
+    }
+
+    /// The valence, if there are Fourier blocks.
+    fn fourier(&self) -> Option<usize> {
+        self.symmetric().then(|| self.valence())
     }
 
     /// All eigenvalues with their algebraic and geometric multiplicities, from the rules of the same level in
@@ -83,10 +88,14 @@ impl LocalSystem {
         let rings = self.telling_rings();
         if !self.symmetric() {
             let matrix = Block::Real(local_matrix(level, rings)?);
-            return self.listed(|_, block| multiplicities(&matrix, block, Precision::Extended));
+            return listed(self.blocks(), None, |_, block| {
+                multiplicities(&matrix, block, Precision::Extended)
+            });
         }
         let assembly = Assembly::new(level, rings)?;
-        self.listed(|index, block| multiplicities(&assembly.block(index)?, block, Precision::Extended))
+        listed(self.blocks(), self.fourier(), |index, block| {
+            multiplicities(&assembly.block(index)?, block, Precision::Extended)
+        })
     }
 
     /// All eigenvalues with their algebraic multiplicities alone, in doubles, those within
@@ -96,7 +105,7 @@ impl LocalSystem {
     /// # Errors
     /// [`Error::Decomposition`] if an entry is not finite or an iteration fails.
     pub fn eigenvalues(&self) -> Result<Spectrum, Error> {
-        self.listed(|_, block| {
+        listed(self.blocks(), self.fourier(), |_, block| {
             let known = |e: BlockEigenvalue| (e.value, e.multiplicity, (e.multiplicity == 1).then_some(1));
             Ok(block.eigenvalues()?.into_iter().map(known).collect())
         })
@@ -121,47 +130,52 @@ impl LocalSystem {
         };
         (0..numbering.rings).find(holds).unwrap_or(numbering.rings)
     }
+}
 
-    /// The eigenvalues of all blocks; `of` gives those of one with algebraic and geometric multiplicity.
-    fn listed(&self, of: impl Fn(usize, &Block<f64>) -> Result<Vec<Multiplicities>, Error>) -> Result<Spectrum, Error> {
-        let n = self.valence();
-        let mut eigenvalues = Vec::new();
-        for (k, block) in self.blocks().iter().enumerate() {
-            let twice = self.symmetric() && k != 0 && 2 * k != n;
-            let copies = 1 + usize::from(twice);
-            let list = of(k, block)?;
-            for &(value, multiplicity, geometric) in &list {
-                let conjugate = value.conj();
-                let mut add = |value, index: usize, copies: usize| {
-                    eigenvalues.push(Eigenvalue {
-                        value,
-                        fourier: self.symmetric().then_some(index),
-                        blocks: copies,
-                        multiplicity: copies * multiplicity,
-                        geometric: geometric.map(|vectors| copies * vectors),
-                    });
-                };
-                // block N-k is conjugate: without a mirror symmetry it may have a value that block k has not
-                if twice && value.im != 0.0 && !list.iter().any(|other| are_close(other.0, conjugate)) {
+/// The eigenvalues of the blocks 0 to N/2 of a valence, or of one matrix without a valence; `of` gives those
+/// of one with algebraic and geometric multiplicity.
+fn listed(
+    blocks: &[Block<f64>],
+    valence: Option<usize>,
+    of: impl Fn(usize, &Block<f64>) -> Result<Vec<Multiplicities>, Error>,
+) -> Result<Spectrum, Error> {
+    let mut eigenvalues = Vec::new();
+    for (k, block) in blocks.iter().enumerate() {
+        let twice = valence.filter(|n| k != 0 && 2 * k != *n);
+        let copies = 1 + usize::from(twice.is_some());
+        let list = of(k, block)?;
+        for &(value, multiplicity, geometric) in &list {
+            let conjugate = value.conj();
+            let mut add = |value, index: usize, copies: usize| {
+                eigenvalues.push(Eigenvalue {
+                    value,
+                    fourier: valence.map(|_| index),
+                    blocks: copies,
+                    multiplicity: copies * multiplicity,
+                    geometric: geometric.map(|vectors| copies * vectors),
+                });
+            };
+            // block N-k is conjugate: without a mirror symmetry it may have a value that block k has not
+            match twice {
+                Some(n) if value.im != 0.0 && !list.iter().any(|other| are_close(other.0, conjugate)) => {
                     add(value, k, 1);
                     add(conjugate, n - k, 1);
-                } else {
-                    add(value, k, copies);
                 }
+                _ => add(value, k, copies),
             }
         }
-        eigenvalues.sort_by(|a, b| order(a.value, b.value).then(a.fourier.cmp(&b.fourier)));
-        // equal or conjugate up to rounding: by Fourier index
-        let upper = |e: &Eigenvalue| Complex::new(e.value.re, e.value.im.abs());
-        let mut start = 0;
-        for end in 1..=eigenvalues.len() {
-            if end == eigenvalues.len() || !are_close(upper(&eigenvalues[end]), upper(&eigenvalues[start])) {
-                eigenvalues[start..end].sort_by_key(|e| e.fourier);
-                start = end;
-            }
-        }
-        Ok(Spectrum { eigenvalues })
     }
+    eigenvalues.sort_by(|a, b| order(a.value, b.value).then(a.fourier.cmp(&b.fourier)));
+    // equal or conjugate up to rounding: by Fourier index
+    let upper = |e: &Eigenvalue| Complex::new(e.value.re, e.value.im.abs());
+    let mut start = 0;
+    for end in 1..=eigenvalues.len() {
+        if end == eigenvalues.len() || !are_close(upper(&eigenvalues[end]), upper(&eigenvalues[start])) {
+            eigenvalues[start..end].sort_by_key(|e| e.fourier);
+            start = end;
+        }
+    }
+    Ok(Spectrum { eigenvalues })
 }
 
 /// An eigenvalue of a block with its algebraic and, where it is known, its geometric multiplicity.
@@ -174,7 +188,7 @@ fn multiplicities(
     precision: Precision,
 ) -> Result<Vec<Multiplicities>, Error> {
     let most = match precision {
-        Precision::Double => MAX_LIFTED,
+        Precision::Rounded(_) => MAX_LIFTED,
         Precision::Extended => MAX_EXTENDED,
     };
     if block.size() <= most && block.size() == doubles.size() {
@@ -192,7 +206,7 @@ fn multiplicities(
         for BlockEigenvalue { value, multiplicity } in inner.eigenvalues()? {
             let geometric = match multiplicity {
                 1 => 1,
-                _ => inner.nullity(value)?.clamp(1, multiplicity),
+                _ => inner.nullity(value, NULL)?.clamp(1, multiplicity),
             };
             known.push((value, multiplicity, Some(geometric)));
         }
@@ -206,6 +220,18 @@ fn multiplicities(
 }
 
 impl Spectrum {
+    /// The spectrum of a matrix from its Fourier blocks 0 to N/2, or, without a valence, from the one block
+    /// that is the matrix. Entries are known to `rounding` relative to the largest, 0 for doubles as they
+    /// are: what such an error could make of one eigenvalue is one.
+    ///
+    /// # Errors
+    /// [`Error::Decomposition`] if an entry is not finite or an iteration fails.
+    pub fn of_blocks(blocks: &[Block<f64>], valence: Option<usize>, rounding: f64) -> Result<Self, Error> {
+        listed(blocks, valence, |_, block| {
+            multiplicities(&block.lifted(), block, Precision::Rounded(rounding))
+        })
+    }
+
     /// The eigenvalue of largest modulus once the dominant one is taken away.
     pub fn subdominant(&self) -> Option<&Eigenvalue> {
         self.eigenvalues.get(1)

@@ -10,7 +10,7 @@
 
 use super::grid::{Grid, NARROWEST, narrowest};
 use super::sheet::{MapPoint, Sheet, common_inner};
-use super::subject::{Subject, chosen};
+use super::subject::{Subject, chosen, tell};
 use super::{Drawing, FigureEntry, Inputs, points};
 use crate::error::Error;
 use eigenring_figure::{Chart, Colour, ColourMap, ColourScale, Figure, Panel, Side, Stroke, Style};
@@ -98,6 +98,7 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
     if folds {
         figure = figure.legend(Side::Bottom);
     }
+    tell(columns.iter().flatten(), &mut table, inputs.tuner.progress);
     Ok(vec![Drawing::of(&ENTRY, figure, table)])
 }
 

@@ -183,7 +183,7 @@ pub fn find(name: &str) -> Result<&'static FigureEntry, Error> {
 
 /// All figures: name, what they show, what they correspond to, default valences.
 pub fn list() -> Table {
-    let mut table = Table::new(["name", "shows", "corresponds to", "valences"]);
+    let mut table = Table::new(["name", "valences", "corresponds to", "shows"]);
     for entry in FIGURES {
         let valences: Vec<String> = entry.valences.iter().map(usize::to_string).collect();
         let valences = match entry.valences {
@@ -193,9 +193,9 @@ pub fn list() -> Table {
         };
         table.push(vec![
             entry.name.into(),
-            entry.title.into(),
-            entry.reference.into(),
             valences.into(),
+            entry.reference.into(),
+            entry.title.into(),
         ]);
     }
     table

@@ -6,7 +6,7 @@
 
 use super::grid::{Grid, NARROWEST, narrowest};
 use super::nets::NaturalNet;
-use super::subject::{Subject, chosen, featured};
+use super::subject::{Subject, chosen, featured, tell};
 use super::{Drawing, FigureEntry, Inputs};
 use crate::error::Error;
 use eigenring_figure::{Figure, Panel};
@@ -53,6 +53,7 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
             figure = figure.panel(at_row, at_column, panel);
         }
     }
+    tell(columns.iter().flatten(), &mut table, inputs.tuner.progress);
     Ok(vec![Drawing::of(&ENTRY, figure, table)])
 }
 

@@ -10,7 +10,7 @@
 use super::characteristic::resolution;
 use super::grid::{Grid, NARROWEST, narrowest};
 use super::sheet::{MapPoint, Sheet, common_inner};
-use super::subject::{Subject, chosen};
+use super::subject::{Subject, chosen, tell};
 use super::{Drawing, FigureEntry, Inputs, points};
 use crate::error::Error;
 use eigenring_figure::{Colour, ColourMap, ColourScale, Figure, Panel, Stroke, Surface, View};
@@ -111,6 +111,7 @@ fn draw(valence: usize, inputs: &Inputs<'_>) -> Result<Drawing, Error> {
             points::push(&mut table, &of, sheet, |point| [point.z, point.value]);
         }
     }
+    tell(subjects.iter(), &mut table, inputs.tuner.progress);
     Ok(Drawing {
         stem: format!("{}-n{valence}", ENTRY.name),
         figure,

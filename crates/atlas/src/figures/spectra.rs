@@ -10,10 +10,11 @@ use super::grid::Grid;
 use super::subject::{Subject, chosen};
 use super::{Drawing, FigureEntry, Inputs};
 use crate::error::Error;
+use crate::spectrum::Analysis;
 use crate::table::Table;
 use eigenring_figure::{Anchor, Axis, Chart, Colour, Dash, Figure, Marker, Panel, Side, Stroke, Style, decades_of};
 use eigenring_scheme::Corner;
-use eigenring_spectral::{Eigenvalue, Spectrum, Sufficient};
+use eigenring_spectral::{Eigenvalue, Spectrum};
 
 pub const ENTRY: FigureEntry = FigureEntry {
     valences: &[5, 8],
@@ -90,15 +91,11 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
     ]);
     for (column, &valence) in inputs.valences.iter().enumerate() {
         for (row, (subject, argument)) in chosen(inputs, valence)?.iter().zip(inputs.schemes).enumerate() {
-            let Sufficient { system, .. } = Sufficient::new(subject.scheme.limit(), subject.scheme.closed_rings()?)?;
+            let extended = argument.extended(&Corner::closed(argument.centre()?, valence)?)?;
+            let Analysis { system, spectrum, .. } = Analysis::of_rules(&subject.scheme, extended.as_ref(), None, None)?;
             if !system.symmetric() {
                 return Err(eigenring_spectral::Error::NotSymmetric.into());
             }
-            let corner = Corner::closed(argument.centre()?, valence)?;
-            let spectrum = match argument.extended(&corner)? {
-                Some(extended) => system.spectrum_of(extended.limit())?,
-                None => system.spectrum()?,
-            };
             for e in &spectrum.eigenvalues {
                 table.push(vec![
                     subject.name.as_str().into(),
@@ -175,6 +172,7 @@ mod tests {
     use crate::progress::Silent;
     use crate::schemes::Tuner;
     use eigenring_figure::Width;
+    use eigenring_spectral::Sufficient;
 
     fn value(re: f64, im: f64, multiplicity: usize, geometric: usize) -> Eigenvalue {
         Eigenvalue {

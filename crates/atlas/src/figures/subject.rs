@@ -2,8 +2,11 @@
 
 use super::Inputs;
 use crate::error::Error;
-use crate::schemes::{SchemeName, Tuner};
+use crate::progress::Progress;
+use crate::schemes::{SchemeName, Tuner, distinct};
+use crate::table::{Cell, Table};
 use eigenring_scheme::{Scheme, Spec};
+use eigenring_spectral::Sufficient;
 use eigenring_tune::study::{LAMBDA_A, LAMBDA_M};
 
 /// A scheme around a centre.
@@ -17,6 +20,40 @@ pub struct Subject {
     pub valence: usize,
     /// The scheme.
     pub scheme: Scheme<f64>,
+    /// What is to be said of its maps, if the subdominant eigenvalue is not that of block 1, whose vectors
+    /// they are made of.
+    remark: Option<String>,
+}
+
+/// What is to be said of the maps of a scheme.
+fn remark(scheme: &Scheme<f64>) -> Result<Option<String>, Error> {
+    let Sufficient { system, .. } = Sufficient::new(scheme.limit(), scheme.closed_rings()?)?;
+    let spectrum = system.eigenvalues()?;
+    let stray = spectrum.subdominant().zip(spectrum.stray());
+    Ok(stray.map(|(lambda, index)| {
+        format!(
+            "the subdominant eigenvalue {} is of Fourier index {index}, not 1: what is drawn belongs to the largest of index 1",
+            crate::table::short(lambda.modulus())
+        )
+    }))
+}
+
+/// Says of each subject what is to be said of its maps, and adds it to a table whose first columns are scheme
+/// and valence. Most have no remark, and no table a column of them then.
+pub fn tell<'a>(subjects: impl Iterator<Item = &'a Subject> + Clone, table: &mut Table, progress: &dyn Progress) {
+    let told = subjects.filter_map(|subject| Some((subject, subject.remark.as_deref()?)));
+    let told: Vec<(&Subject, &str)> = told.collect();
+    for (Subject { name, valence, .. }, remark) in &told {
+        progress.note(&format!("{name} at N = {valence}: {remark}"));
+    }
+    if told.is_empty() {
+        return;
+    }
+    table.extend_by("remark", |row| {
+        let of = |subject: &Subject| row[0] == subject.name.as_str().into() && row[1] == subject.valence.into();
+        let found = told.iter().find(|(subject, _)| of(subject));
+        found.map_or(Cell::Empty, |(_, remark)| (*remark).into())
+    });
 }
 
 impl Subject {
@@ -46,6 +83,7 @@ impl Subject {
             title,
             name: scheme.name().to_owned(),
             valence,
+            remark: remark(&scheme)?,
             scheme,
         })
     }
@@ -65,6 +103,15 @@ fn short(name: &str) -> String {
     }
 }
 
+/// The end of a path as far as it fits above a panel, without what would be markup.
+fn end(path: &str) -> String {
+    let plain: Vec<char> = path.chars().filter(|&c| c != '$').collect();
+    match plain.len() {
+        ..=FILE => plain.into_iter().collect(),
+        long => ['…'].iter().chain(&plain[long - FILE + 1..]).collect(),
+    }
+}
+
 /// Characters of a file's name in a title.
 const FILE: usize = 22;
 
@@ -77,9 +124,20 @@ fn four(number: f64) -> String {
 /// The chosen schemes at one valence.
 pub fn chosen(inputs: &Inputs<'_>, valence: usize) -> Result<Vec<Subject>, Error> {
     let schemes = inputs.schemes.iter();
-    schemes
+    let mut subjects: Vec<Subject> = schemes
         .map(|argument| Subject::new(argument, valence, inputs.tuner))
-        .collect()
+        .collect::<Result<_, Error>>()?;
+    let names: Vec<&str> = subjects.iter().map(|subject| subject.name.as_str()).collect();
+    let called = distinct(inputs.schemes, &names);
+    for ((subject, called), argument) in subjects.iter_mut().zip(called).zip(inputs.schemes) {
+        if let SchemeName::File(file) = argument
+            && called != subject.name
+        {
+            subject.title = end(&file.path.display().to_string());
+            subject.name = called;
+        }
+    }
+    Ok(subjects)
 }
 
 /// The lambda-scheme at five featured lambdas, ascending: 0.35, lambda_A*, lambda_M*, lambda_C* and half way
@@ -108,6 +166,7 @@ pub fn featured(inputs: &Inputs<'_>, valence: usize) -> Result<Vec<Subject>, Err
             title: format!("{symbol} = {}", four(lambda)),
             name: scheme.name().to_owned(),
             valence,
+            remark: None,
             scheme,
         })
     };
@@ -132,6 +191,11 @@ mod tests {
             assert_eq!(subject.full_title(), title);
         }
         assert_eq!(short("my_$cheme"), "my_cheme");
+        assert_eq!(end("folder$/mine.toml"), "folder/mine.toml");
+        assert_eq!(
+            end(&format!("{}/mine.toml", "x".repeat(30))),
+            format!("…{}/mine.toml", "x".repeat(11))
+        );
         assert_eq!(short(&"x".repeat(99)), "x".repeat(21) + "…");
     }
 }

@@ -21,7 +21,7 @@ pub use eigenring_spectral::Matrix;
 use eigenring_spectral::{Block, Eigenvalue, Spectrum};
 use serde_json::{Map, Value, json};
 
-/// Imaginary parts below this times the modulus are rounding errors of blocks with complex entries.
+/// Values of a vector below this times the largest are zero.
 const REAL: f64 = 1e-9;
 
 /// Row sums further than this from 1 are worth a warning: beyond the rounding of printed weights.
@@ -29,9 +29,6 @@ const AFFINE: f64 = 1e-12;
 
 /// An eigenvalue this near to 1 is the one of affine rules, in weights of single precision.
 const ONE: f64 = 1e-5;
-
-/// Eigenvalues of different blocks closer than this, relatively, are the same.
-const SAME: f64 = 1e-9;
 
 /// A matrix with its spectrum.
 #[derive(Clone, Debug)]
@@ -112,15 +109,31 @@ impl Given {
         };
         let sums = (0..rows).map(|row| matrix.row(row).iter().sum::<f64>());
         let defect = sums.fold(0.0_f64, |worst, sum| worst.max((sum - 1.0).abs()));
-        let spectrum = spectrum(&blocks, rotation.as_ref().map(|(rotation, _)| rotation.valence))?;
-        Ok(Given {
+        let mut given = Given {
             name: name.into(),
             matrix,
             rotation,
             blocks,
-            spectrum,
+            spectrum: Spectrum {
+                eigenvalues: Vec::new(),
+            },
             defect,
-        })
+        };
+        given.spectrum = Spectrum::of_blocks(&given.blocks, given.order(), given.rounding())?;
+        Ok(given)
+    }
+
+    /// How well the entries are known relative to the largest, as far as the rotation and the row sums tell:
+    /// printed weights have few digits. Row sums that are no matter of rounding tell nothing.
+    pub fn rounding(&self) -> f64 {
+        let distance = self.rotation.as_ref().map_or(0.0, |(_, distance)| *distance);
+        let defect = if self.defect <= ONE { self.defect } else { 0.0 };
+        distance.max(defect)
+    }
+
+    /// The order of the rotation.
+    fn order(&self) -> Option<usize> {
+        self.rotation.as_ref().map(|(rotation, _)| rotation.valence)
     }
 
     /// As it was given, or its mean over the rotation that was found.
@@ -219,7 +232,7 @@ impl Given {
     }
 
     fn valence(&self) -> usize {
-        self.rotation.as_ref().map_or(1, |(rotation, _)| rotation.valence)
+        self.order().unwrap_or(1)
     }
 
     fn head(&self) -> Record {
@@ -228,7 +241,7 @@ impl Given {
         Record::default()
             .with("scheme", self.name.as_str())
             .with("corner", "closed")
-            .with("valence", self.rotation.as_ref().map(|(rotation, _)| rotation.valence))
+            .with("valence", self.order())
             .with("lattice", Cell::Empty)
             .with("rings", Cell::Empty)
             .with("closed_rings", Cell::Empty)
@@ -422,20 +435,19 @@ impl Given {
     /// Functionals of the pair of eigenvalues after the dominant one, in the whole matrix.
     fn pair(&self) -> Weights<[Vec<f64>; 2]> {
         let whole = Block::Real(self.matrix.clone());
-        let all = whole.eigenvalues().map_err(|error| error.to_string())?;
         let none = || "the eigenvalues after 1 are no real pair with two eigenvectors".to_owned();
-        let next = all.get(1).ok_or_else(none)?;
-        let values: Vec<Complex<f64>> = match (next.multiplicity, all.get(2)) {
-            (2, _) => vec![next.value],
-            (1, Some(second)) if second.multiplicity == 1 => vec![next.value, second.value],
-            _ => return Err(none()),
-        };
         let mut functionals: Vec<Vec<f64>> = Vec::new();
-        for value in values {
-            let space = whole.eigenspace(value, 0).map_err(|error| error.to_string())?;
-            if value.im != 0.0 {
+        let mut multiplicity = 0;
+        for e in self.spectrum.eigenvalues.iter().skip(1) {
+            // a value that two blocks have brings the vectors of both
+            if functionals.len() >= 2 {
+                break;
+            }
+            multiplicity += e.multiplicity;
+            if e.value.im != 0.0 || multiplicity > 2 {
                 return Err(none());
             }
+            let space = whole.eigenspace(e.value, 0).map_err(|error| error.to_string())?;
             functionals.extend(
                 space
                     .left
@@ -463,63 +475,4 @@ fn block(matrix: &Matrix<f64>, rotation: &Rotation, k: usize) -> Block<f64> {
         return Block::Real(Matrix::from_fn(points.len(), points.len(), |i, j| entry(i, j).re));
     }
     Block::Complex(Matrix::from_fn(points.len(), points.len(), entry))
-}
-
-/// The eigenvalues of all blocks with what they are in the whole matrix. Blocks k and N-k are conjugate:
-/// where one has both of a pair of conjugate values, or a real one, it is listed once with the multiplicity
-/// of both blocks; else each value with the index of its own block.
-fn spectrum(blocks: &[Block<f64>], valence: Option<usize>) -> Result<Spectrum, Error> {
-    let mut eigenvalues = Vec::new();
-    for (k, block) in blocks.iter().enumerate() {
-        let list = block.eigenvalues()?;
-        let scale = list.first().map_or(0.0, |e| e.value.modulus());
-        let real = |value: Complex<f64>| {
-            if value.im.abs() <= REAL * scale.max(value.re.abs()) {
-                Complex::real(value.re)
-            } else {
-                value
-            }
-        };
-        let near = |a: Complex<f64>, b: Complex<f64>| (a - b).modulus() <= SAME * scale;
-        for e in &list {
-            let value = real(e.value);
-            let conjugate = value.conj();
-            let geometric = block.nullity(e.value)?.clamp(1, e.multiplicity);
-            let mut add = |value: Complex<f64>, fourier: usize, copies: usize| {
-                eigenvalues.push(Eigenvalue {
-                    value,
-                    fourier: valence.map(|_| fourier),
-                    blocks: copies,
-                    multiplicity: copies * e.multiplicity,
-                    geometric: Some(copies * geometric),
-                });
-            };
-            match valence {
-                Some(n) if k != 0 && 2 * k != n => {
-                    if value.im == 0.0 || list.iter().any(|other| near(other.value, conjugate)) {
-                        add(value, k, 2);
-                    } else {
-                        add(value, k, 1);
-                        add(conjugate, n - k, 1);
-                    }
-                }
-                _ => add(value, k, 1),
-            }
-        }
-    }
-    eigenvalues.sort_by(|a: &Eigenvalue, b| b.modulus().total_cmp(&a.modulus()));
-    // equal moduli up to rounding: by Fourier index, then by value
-    let mut start = 0;
-    for end in 1..=eigenvalues.len() {
-        let ends = eigenvalues
-            .get(end)
-            .is_none_or(|e| e.modulus() < eigenvalues[start].modulus() * (1.0 - SAME) - f64::MIN_POSITIVE);
-        if ends {
-            let order = |e: &Eigenvalue| (e.fourier, -e.value.re, -e.value.im);
-            eigenvalues[start..end]
-                .sort_by(|a, b| order(a).partial_cmp(&order(b)).unwrap_or(std::cmp::Ordering::Equal));
-            start = end;
-        }
-    }
-    Ok(Spectrum { eigenvalues })
 }

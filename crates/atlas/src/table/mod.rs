@@ -159,6 +159,14 @@ impl Table {
         }
     }
 
+    /// Adds a column, whose cells are functions of the cells before.
+    pub fn extend_by(&mut self, column: &str, cell: impl Fn(&[Cell]) -> Cell) {
+        self.columns.push(column.to_owned());
+        for row in &mut self.rows {
+            row.push(cell(row));
+        }
+    }
+
     /// The table with other headings for people, which carry units; names that programs read are kept.
     pub fn headed(mut self, format: Format, headings: &[(&str, &str)]) -> Self {
         if matches!(format, Format::Text | Format::Latex) {

@@ -99,7 +99,7 @@ fn with_words(lines: &[String], column: &str, words: &[String], width: usize) ->
         .map(|line| line.trim_end().chars().count())
         .max()
         .unwrap_or(0);
-    let fits = |words: &str| longest + 2 + words.chars().count() <= width;
+    let fits = |words: &str| words.is_empty() || longest + 2 + words.chars().count() <= width;
     let beside =
         |line: &str, words: &str| format!("{}\n", format!("{:<longest$}  {words}", line.trim_end()).trim_end());
     let mut text = String::new();

@@ -1,5 +1,6 @@
 //! `eigenring compare`: schemes side by side.
 
+use super::with_words;
 use crate::args::{Schemes, tuner};
 use crate::error::Error;
 use crate::output::{Output, Wide};
@@ -10,33 +11,31 @@ use eigenring_atlas::compare::{compare, table, text};
 use eigenring_atlas::table::Format;
 use std::process::ExitCode;
 
+const EXAMPLES: &str =
+    "Example:\n  eigenring compare --schemes catmull-clark,lambda:optimal,tension:order=4,u0=2 --valences 3..12";
+
 /// Compare schemes over valences.
 ///
-/// Columns: lambda; mu/lambda^2 (1: bounded curvature without a flat spot); K_m, the reach of the
-/// second-order maps' Gauss curvatures to the wrong side of zero, and the unweighted objective E, both over
-/// the annulus from 2 to 4 with unit 5-ring norm (bicubic schemes around a vertex only); theta, the angle at
-/// F between V and E, in degrees; and margins: gap = 1 - |mu|/lambda; strict = 1 - |next eigenvalue|/mu,
-/// where mu is the smallest of the three eigenvalues of the quadratic terms, empty where the next is not
-/// below it; hull, the smallest weight that is not zero of the rules of one level, passes composed. `verify`
-/// prints the same margins.
+/// Columns are lambda, mu/lambda^2, K_m, E, theta, gap, strict, hull and a remark; the long help says what
+/// they mean. K_m and E are those of bicubic schemes around a vertex only. `verify` prints the same margins.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Example:\n  eigenring compare --schemes catmull-clark,lambda:optimal,tension:order=4,u0=2 --valences 3..12"
+    after_help = EXAMPLES,
+    after_long_help = with_words(EXAMPLES, "compare")
 )]
 pub struct Arguments {
     #[command(flatten)]
     schemes: Schemes,
-    /// Valences: numbers and ranges
+    /// Valences: numbers and ranges; by default 3..12, or that of scheme files for one valence
     #[arg(
         short = 'N',
         long,
         visible_alias = "valence",
         value_name = "LIST",
-        default_value = "3..12",
         value_parser = valences::list,
         allow_hyphen_values = true
     )]
-    valences: Valences,
+    valences: Option<Valences>,
     #[command(flatten)]
     threads: Threads,
     #[command(flatten)]
@@ -45,12 +44,21 @@ pub struct Arguments {
     output: Output,
 }
 
+/// Valences by default.
+const USUAL: std::ops::RangeInclusive<usize> = 3..=12;
+
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         let format = self.output.format()?;
         let wide = self.wide.of(format)?;
         self.threads.start()?;
-        let rows = compare(&self.schemes.required()?, self.valences.closed()?, &tuner())?;
+        let schemes = self.schemes.required()?;
+        let valences = match (&self.valences, self.schemes.only_valence()?) {
+            (Some(valences), _) => valences.closed()?.to_vec(),
+            (None, Some(only)) => vec![only],
+            (None, None) => USUAL.collect(),
+        };
+        let rows = compare(&schemes, &valences, &tuner())?;
         let printed = match format {
             Format::Text => text(&rows, wide),
             _ => table(rows)

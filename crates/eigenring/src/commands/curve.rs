@@ -1,6 +1,6 @@
 //! `eigenring curve`: refinement of control points, with the limit and a picture.
 
-use super::plot::Size;
+use super::plot::{PictureFormat, Size};
 use crate::args;
 use crate::error::Error;
 use crate::files;
@@ -68,7 +68,7 @@ pub struct Arguments {
     /// by default 16
     #[arg(long, value_name = "COUNT", value_parser = args::count, allow_negative_numbers = true)]
     samples: Option<usize>,
-    /// Draw control polygon, levels and limit: a file that ends with .svg or .png
+    /// Draw control polygon, levels and limit: a file that ends with .svg, .png or .pdf
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
     /// Dots per inch of a PNG file, at the printed size; by default 300
@@ -196,15 +196,18 @@ impl Arguments {
             return Err(Error::usage(message, "--samples with --limit, --plot or --example"));
         }
         match &self.plot {
-            Some(path) if !is(path, "svg") && !is(path, "png") => Err(Error::usage(
-                format!("picture {}", path.display()),
-                "a name that ends with .svg or .png",
-            )),
-            Some(path) if !is(path, "png") && self.dpi.is_some() => Err(Error::usage(
-                "--dpi has no meaning for SVG",
-                "--dpi with a picture that ends with .png",
-            )),
-            _ => Ok(()),
+            Some(path) => match PictureFormat::of(path) {
+                None => Err(Error::usage(
+                    format!("picture {}", path.display()),
+                    "a name that ends with .svg, .png or .pdf",
+                )),
+                Some(PictureFormat::Svg | PictureFormat::Pdf) if self.dpi.is_some() => Err(Error::usage(
+                    "--dpi has a meaning for PNG files only",
+                    "--dpi with a picture that ends with .png",
+                )),
+                Some(_) => Ok(()),
+            },
+            None => Ok(()),
         }
     }
 
@@ -302,14 +305,7 @@ impl Arguments {
     }
 
     fn picture(&self, path: &Path, figure: &Figure) -> Result<Vec<u8>, Error> {
-        Ok(match is(path, "png") {
-            true => figure.png(self.dpi.unwrap_or(super::plot::DPI))?,
-            false => figure.svg()?.into_bytes(),
-        })
+        let format = PictureFormat::of(path).unwrap_or(PictureFormat::Svg);
+        format.draw(figure, self.dpi.unwrap_or(super::plot::DPI))
     }
-}
-
-fn is(path: &Path, extension: &str) -> bool {
-    path.extension()
-        .is_some_and(|found| found.eq_ignore_ascii_case(extension))
 }

@@ -61,13 +61,12 @@ impl Extension for VectorFormat {
 
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
-        let (shape, steps) = self.corner.shape(self.valence.valence)?;
         let name = self.scheme.name()?;
+        let (shape, steps) = self.corner.shape(self.valence.valence, &name)?;
         let corner = shape.corner(name.centre()?, steps)?;
-        let scheme = name.around(&corner, &args::tuner())?;
         let format = agreed(self.format, self.out.as_deref())?.unwrap_or_default();
-        let extended = name.extended(&corner)?;
-        let analysis = Analysis::of_corner(&scheme, extended.as_ref(), &corner, self.net.rings, self.net.level)?;
+        let net = [self.net.rings, self.net.level];
+        let analysis = Analysis::of_name(&name, &corner, net, &args::tuner())?;
         let vectors = Eigenvectors::new(&analysis)?;
         let bytes = match format {
             VectorFormat::Json => pretty(&vectors.json()).into_bytes(),

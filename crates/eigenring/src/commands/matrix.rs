@@ -68,8 +68,8 @@ impl Extension for MatrixFormat {
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         self.threads.start()?;
-        let (shape, steps) = self.corner.shape(self.valence.valence)?;
         let scheme = self.scheme.name()?;
+        let (shape, steps) = self.corner.shape(self.valence.valence, &scheme)?;
         let corner = shape.corner(scheme.centre()?, steps)?;
         let scheme = scheme.around(&corner, &args::tuner())?;
         let format = agreed(self.format, self.out.as_deref())?.unwrap_or_default();

@@ -5,6 +5,7 @@ mod completions;
 mod curvature;
 mod curve;
 mod eigenvectors;
+mod glossary;
 mod limit;
 mod make;
 mod matrix;
@@ -24,6 +25,7 @@ mod verify;
 use crate::error::Error;
 use crate::progress::watch;
 use clap::{Parser, Subcommand};
+use eigenring_atlas::glossary as words;
 use std::process::ExitCode;
 
 /// Where files go that are no part of the stored results, by default.
@@ -31,6 +33,11 @@ const UNSTORED: &str = "eigenring-out";
 
 /// Where the stored results are.
 const RESULTS: &str = "results";
+
+/// Examples, and what the words mean that a command prints, for its long help.
+fn with_words(examples: &str, command: &str) -> String {
+    format!("{examples}\n\nWords: {}", words::plain(Some(command)))
+}
 
 /// Design, analyse and tabulate subdivision schemes around extraordinary vertices.
 #[derive(Parser, Debug)]
@@ -53,6 +60,7 @@ enum Command {
     Verify(verify::Arguments),
     Spectrum(spectrum::Arguments),
     Eigenvectors(eigenvectors::Arguments),
+    Glossary(glossary::Arguments),
     Matrix(matrix::Arguments),
     Compare(compare::Arguments),
     Curve(curve::Arguments),
@@ -80,6 +88,7 @@ impl Cli {
             Command::Verify(arguments) => arguments.run(),
             Command::Spectrum(arguments) => arguments.run(),
             Command::Eigenvectors(arguments) => arguments.run(),
+            Command::Glossary(arguments) => arguments.run(),
             Command::Matrix(arguments) => arguments.run(),
             Command::Compare(arguments) => arguments.run(),
             Command::Curve(arguments) => arguments.run(),

@@ -1,5 +1,6 @@
 //! `eigenring objective`: the tuning objective at one stencil.
 
+use super::with_words;
 use crate::args::{self, ObjectiveArgs};
 use crate::error::Error;
 use crate::output::Output;
@@ -11,12 +12,17 @@ use eigenring_atlas::table::{Format, pretty};
 use serde_json::Value;
 use std::process::ExitCode;
 
+const EXAMPLES: &str = "Example:\n  eigenring objective -N 6 --lambda 0.55 --f2 0.25 --f3 0.2";
+
 /// Evaluate the objective E, its three parts and the curvature extremes at one stencil.
 ///
 /// gauss_min and gauss_max are the extremes of z_xx z_yy - z_xy^2 over the Gauss points, unsigned;
 /// sign_change is K_m, which is zero if no second-order map changes the sign of its curvature.
 #[derive(Args, Debug)]
-#[command(after_help = "Example:\n  eigenring objective -N 6 --lambda 0.55 --f2 0.25 --f3 0.2")]
+#[command(
+    after_help = EXAMPLES,
+    after_long_help = with_words(EXAMPLES, "objective")
+)]
 pub struct Arguments {
     #[command(flatten)]
     valence: Valence,

@@ -4,16 +4,18 @@ use super::{RESULTS, UNSTORED};
 use crate::args::{self, Schemes};
 use crate::error::Error;
 use crate::files::{self, Written};
+use crate::output::{Extension, agreed};
 use crate::progress::{Terminal, note};
 use crate::threads::Threads;
 use crate::valences::OptionalValences;
 use clap::{Args, ValueEnum};
 use eigenring_atlas::figures::{self, Drawing, FIGURES, FigureEntry, Inputs, Studies};
+use eigenring_atlas::files::is_replaced;
 use eigenring_atlas::progress::{Silent, each};
 use eigenring_atlas::results::{EVERYTHING, FOLDER};
 use eigenring_atlas::schemes::{SchemeName, Tuner};
-use eigenring_atlas::table::Format;
-use eigenring_figure::Width;
+use eigenring_atlas::table::{Format, WIDTH};
+use eigenring_figure::{Figure, Width};
 use eigenring_scheme::Spec;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -25,7 +27,7 @@ use std::str::FromStr;
 /// names of the files that were written are printed.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  eigenring plot --list\n  eigenring plot --all\n  eigenring plot samples --valences 5,8 --size one\n  eigenring plot characteristic-map --schemes catmull-clark,lambda:optimal --valences 5,8\n  eigenring plot stencils --valences 3..20 --range 0.3..0.7 --format svg --out /tmp/figures"
+    after_help = "Examples:\n  eigenring plot --list\n  eigenring plot --all\n  eigenring plot samples --valences 5,8 --size one\n  eigenring plot characteristic-map --schemes catmull-clark,lambda:optimal --valences 5,8\n  eigenring plot stencils --valences 3..20 --range 0.3..0.7 --format svg --out /tmp/figures\n  eigenring plot overview -o overview.pdf"
 )]
 pub struct Arguments {
     /// Names of figures; see --list
@@ -38,17 +40,12 @@ pub struct Arguments {
     #[arg(long, exclusive = true)]
     list: bool,
     /// Output folder; by default results/figures for --all as it is, and eigenring-out/figures for a choice
-    /// of figures, or with any option that changes them
-    #[arg(long, value_name = "FOLDER")]
+    /// of figures, or with any option that changes them. For a single picture also its file, which ends with
+    /// .svg, .png or .pdf and has its data beside it, or a device or pipe
+    #[arg(short, long, value_name = "FOLDER|FILE")]
     out: Option<PathBuf>,
-    /// Formats of the pictures
-    #[arg(
-        long,
-        value_name = "LIST",
-        value_enum,
-        value_delimiter = ',',
-        default_value = "svg,png"
-    )]
+    /// Formats of the pictures: svg, png, pdf; by default svg and png
+    #[arg(long, value_name = "LIST", value_enum, value_delimiter = ',')]
     format: Vec<PictureFormat>,
     /// Dots per inch of PNG files, at the printed size; by default 300
     #[arg(long, value_name = "X", value_parser = args::number, allow_negative_numbers = true)]
@@ -86,7 +83,41 @@ pub enum PictureFormat {
     Svg,
     /// The same, rasterised.
     Png,
+    /// The same, as a page.
+    Pdf,
 }
+
+impl Extension for PictureFormat {
+    fn extensions(self) -> &'static [&'static str] {
+        match self {
+            PictureFormat::Svg => &["svg"],
+            PictureFormat::Png => &["png"],
+            PictureFormat::Pdf => &["pdf"],
+        }
+    }
+}
+
+impl PictureFormat {
+    /// What a file's extension names.
+    pub fn of(path: &Path) -> Option<Self> {
+        agreed(None, Some(path)).ok().flatten()
+    }
+
+    /// A figure in this format.
+    ///
+    /// # Errors
+    /// Those of drawing.
+    pub fn draw(self, figure: &Figure, dpi: f64) -> Result<Vec<u8>, Error> {
+        Ok(match self {
+            PictureFormat::Svg => figure.svg()?.into_bytes(),
+            PictureFormat::Png => figure.png(dpi)?,
+            PictureFormat::Pdf => figure.pdf()?,
+        })
+    }
+}
+
+/// A picture's file and the tables beside it, with the ends of their names.
+type Files = (PathBuf, Vec<(String, Vec<u8>)>);
 
 /// Widths of a journal page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -134,28 +165,93 @@ const TABULATED: (f64, f64) = (0.15, 0.9);
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         if self.list {
-            files::emit(None, figures::list().render(Format::Text).as_bytes())?;
+            files::emit(None, figures::list().fitted(WIDTH).as_bytes())?;
             return Ok(ExitCode::SUCCESS);
         }
         let entries = self.entries()?;
         self.check(&entries)?;
         self.threads.start()?;
-        let out = self.out();
-        files::check_writable(self.out.as_deref().unwrap_or(Path::new(UNSTORED)), &out)?;
+        let formats = self.formats()?;
+        let file = self.file();
+        let out = match file {
+            Some(path) => path.parent().unwrap_or(Path::new("")).to_owned(),
+            None => self.out(),
+        };
+        if file.is_none_or(|path| is_replaced(path) && !out.as_os_str().is_empty()) {
+            let given = self.out.as_deref().filter(|_| file.is_none());
+            files::check_writable(given.unwrap_or(Path::new(UNSTORED)), &out)?;
+        }
         let studies = self.studies(&entries)?;
         let tuner = args::tuner();
         let drawn = each(&Terminal, "figures", &entries, |entry| {
-            self.draw(entry, &studies, &tuner)
+            self.draw(entry, &formats, &studies, &tuner)
         })?;
-        let mut written = Written::default();
-        for (name, contents) in drawn.into_iter().flatten() {
-            written.write(out.join(name), &contents)?;
-        }
         if let Some(remark) = &studies.remark {
             note(remark);
         }
+        let mut written = Written::default();
+        let drawn: Vec<Files> = drawn.into_iter().flatten().collect();
+        match (file, drawn.as_slice()) {
+            (None, _) => {
+                for (stem, files) in drawn {
+                    for (end, contents) in files {
+                        written.write(out.join(with_end(&stem, &end)), &contents)?;
+                    }
+                }
+            }
+            (Some(path), [(_, files)]) => {
+                // a device or a pipe takes the picture alone
+                let stem = path.with_extension("");
+                for (index, (end, contents)) in files.iter().enumerate() {
+                    match (index, is_replaced(path)) {
+                        (0, true) => written.write(path.to_owned(), contents)?,
+                        (0, false) => return Ok(files::emit(Some(path), contents).map(|()| ExitCode::SUCCESS)?),
+                        _ => written.write(with_end(&stem, end), contents)?,
+                    }
+                }
+            }
+            (Some(path), _) => {
+                return Err(Error::usage(
+                    format!("{} is one file, and {} pictures are drawn", path.display(), drawn.len()),
+                    "a folder, or one figure at one valence",
+                ));
+            }
+        }
         files::emit(None, written.list().as_bytes())?;
         Ok(ExitCode::SUCCESS)
+    }
+
+    /// The file that is named in place of a folder: by the extension of a picture, or because something is
+    /// there that is none.
+    fn file(&self) -> Option<&Path> {
+        let path = self.out.as_deref()?;
+        let picture = PictureFormat::of(path).is_some() || path.exists();
+        (picture && !path.is_dir()).then_some(path)
+    }
+
+    /// The formats of the pictures.
+    fn formats(&self) -> Result<Vec<PictureFormat>, Error> {
+        let Some(path) = self.file() else {
+            return Ok(match self.format.as_slice() {
+                [] => vec![PictureFormat::Svg, PictureFormat::Png],
+                given => given.to_vec(),
+            });
+        };
+        if is_replaced(path) && PictureFormat::of(path).is_none() {
+            return Err(Error::usage(
+                format!("{} is a file, and no picture", path.display()),
+                "a folder, or a file that ends with .svg, .png or .pdf",
+            ));
+        }
+        match self.format.as_slice() {
+            [] | [_] => Ok(vec![
+                agreed(self.format.first().copied(), Some(path))?.unwrap_or(PictureFormat::Svg),
+            ]),
+            _ => Err(Error::usage(
+                format!("{} is one file, and several formats are asked for", path.display()),
+                "one --format, or a folder",
+            )),
+        }
     }
 
     /// Where the files go: what is stored in `results` is all figures as they are by default, and nothing
@@ -197,7 +293,7 @@ impl Arguments {
         if let Some(valences) = &self.valences.valences {
             valences.closed()?;
         }
-        if self.dpi.is_some() && !self.format.contains(&PictureFormat::Png) {
+        if self.dpi.is_some() && !self.formats()?.contains(&PictureFormat::Png) {
             return Err(Error::usage("--dpi has no meaning without PNG files", "--format png"));
         }
         if self.results.is_some() && !entries.iter().any(|entry| entry.studies) {
@@ -288,7 +384,13 @@ impl Arguments {
     }
 
     /// The files of a figure.
-    fn draw(&self, entry: &FigureEntry, studies: &Studies, tuner: &Tuner<'_>) -> Result<Vec<(String, Vec<u8>)>, Error> {
+    fn draw(
+        &self,
+        entry: &FigureEntry,
+        formats: &[PictureFormat],
+        studies: &Studies,
+        tuner: &Tuner<'_>,
+    ) -> Result<Vec<Files>, Error> {
         let schemes = self.schemes(entry)?;
         let inputs = Inputs {
             schemes: &schemes,
@@ -310,27 +412,33 @@ impl Arguments {
         };
         let drawings = (entry.build)(&inputs)?;
         // the bar counts figures
-        Ok(each(&Silent, entry.name, &drawings, |drawing| self.files(drawing))?.concat())
+        each(&Silent, entry.name, &drawings, |drawing| self.files(drawing, formats))
     }
 
-    fn files(&self, drawing: &Drawing) -> Result<Vec<(String, Vec<u8>)>, Error> {
+    fn files(&self, drawing: &Drawing, formats: &[PictureFormat]) -> Result<Files, Error> {
         let Drawing { stem, figure, data } = drawing;
         let mut files = Vec::new();
-        if self.format.contains(&PictureFormat::Svg) {
-            files.push((format!("{stem}.svg"), figure.svg()?.into_bytes()));
-        }
-        if self.format.contains(&PictureFormat::Png) {
-            files.push((format!("{stem}.png"), figure.png(self.dpi.unwrap_or(DPI))?));
+        for format in PictureFormat::value_variants() {
+            if formats.contains(format) {
+                let end = format!(".{}", format.extensions()[0]);
+                files.push((end, format.draw(figure, self.dpi.unwrap_or(DPI))?));
+            }
         }
         for (suffix, table) in data {
-            let name = match *suffix {
-                "" => format!("{stem}.csv"),
-                suffix => format!("{stem}-{suffix}.csv"),
+            let end = match *suffix {
+                "" => ".csv".to_owned(),
+                suffix => format!("-{suffix}.csv"),
             };
-            files.push((name, table.render(Format::Csv).into_bytes()));
+            files.push((end, table.render(Format::Csv).into_bytes()));
         }
-        Ok(files)
+        Ok((PathBuf::from(stem), files))
     }
+}
+
+fn with_end(stem: &Path, end: &str) -> PathBuf {
+    let mut name = stem.as_os_str().to_owned();
+    name.push(end);
+    PathBuf::from(name)
 }
 
 fn takes_lambda(entry: &FigureEntry) -> bool {

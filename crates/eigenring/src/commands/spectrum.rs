@@ -1,12 +1,13 @@
 //! `eigenring spectrum`: eigenvalues, Fourier indices and limit stencils of any scheme or matrix.
 
+use super::with_words;
 use crate::args::{self, CornerArgs, SchemeSettings};
 use crate::error::Error;
 use crate::files;
 use crate::output::Output;
 use crate::progress::{Terminal, note};
 use crate::threads::Threads;
-use crate::valences::{self, OptionalValence};
+use crate::valences::OptionalValence;
 use clap::{ArgGroup, Args, ValueEnum};
 use eigenring_atlas::Accepted;
 use eigenring_atlas::given::{Given, Matrix, Rotation};
@@ -19,6 +20,8 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+const EXAMPLES: &str = "Examples:\n  eigenring spectrum --scheme catmull-clark -N 5\n  eigenring spectrum --scheme tension:order=6,u0=2 -N 7 --level 0 --format json\n  eigenring spectrum --scheme catmull-clark --fan 3           a boundary vertex with three faces\n  eigenring spectrum --scheme stam:order=6 --dart -N 5 --cs 1\n  eigenring spectrum --scheme catmull-clark --knots 1,2,1,3 --next 1,1,1,1\n  eigenring spectrum --scheme file:my.toml --sweep a=1..2:20 -N 5\n  eigenring spectrum --matrix S.csv                           a matrix of your own";
+
 /// List the eigenvalues of a local subdivision matrix with their Fourier indices and multiplicities.
 ///
 /// Multiplicities are those in the whole matrix: an eigenvalue that blocks k and N-k share is listed once,
@@ -28,7 +31,8 @@ use std::process::ExitCode;
 #[derive(Args, Debug)]
 #[command(group = ArgGroup::new("source").required(true))]
 #[command(
-    after_help = "Examples:\n  eigenring spectrum --scheme catmull-clark -N 5\n  eigenring spectrum --scheme tension:order=6,u0=2 -N 7 --level 0 --format json\n  eigenring spectrum --scheme catmull-clark --fan 3           a boundary vertex with three faces\n  eigenring spectrum --scheme stam:order=6 --dart -N 5 --cs 1\n  eigenring spectrum --scheme catmull-clark --knots 1,2,1,3 --next 1,1,1,1\n  eigenring spectrum --scheme file:my.toml --sweep a=1..2:20 -N 5\n  eigenring spectrum --matrix S.csv                           a matrix of your own"
+    after_help = EXAMPLES,
+    after_long_help = with_words(EXAMPLES, "spectrum")
 )]
 pub struct Arguments {
     /// The scheme: see 'eigenring --help'
@@ -94,7 +98,10 @@ impl Arguments {
         let scheme = scheme.map(|scheme| self.settings.apply(scheme)).transpose()?;
         if let (Some(sweep), Some(scheme)) = (&self.sweep, &scheme) {
             self.corner.refuse("with --sweep")?;
-            let valence = self.valence.valence.ok_or_else(valences::missing)?;
+            let valence = match self.valence.valence {
+                Some(valence) => valence,
+                None => args::only_valence(scheme)?,
+            };
             let found = spectra(scheme, sweep, valence, [self.rings, self.level], &Terminal)?;
             let text = match format {
                 Format::Json => pretty(&sweep::json(sweep, &found)),
@@ -105,17 +112,10 @@ impl Arguments {
         }
         let answer = match (&scheme, &self.matrix) {
             (Some(scheme), _) => {
-                let (shape, steps) = self.corner.shape(self.valence.valence)?;
+                let (shape, steps) = self.corner.shape(self.valence.valence, scheme)?;
                 let corner = shape.corner(scheme.centre()?, steps)?;
-                let found = scheme.around(&corner, &args::tuner())?;
-                let extended = scheme.extended(&corner)?;
-                Answer::Scheme(Analysis::of_corner(
-                    &found,
-                    extended.as_ref(),
-                    &corner,
-                    self.rings,
-                    self.level,
-                )?)
+                let net = [self.rings, self.level];
+                Answer::Scheme(Analysis::of_name(scheme, &corner, net, &args::tuner())?)
             }
             (None, Some(path)) => {
                 self.corner.refuse("for a matrix")?;
@@ -182,6 +182,7 @@ impl Arguments {
                         name.clone(),
                         given.matrix(),
                         rotation.valence,
+                        given.rounding(),
                     )?))
                 }
                 None => Ok(Answer::Matrix(given)),

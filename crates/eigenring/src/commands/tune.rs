@@ -1,5 +1,6 @@
 //! `eigenring tune`: the best stencil at one lambda, or over all.
 
+use super::with_words;
 use crate::args::{self, TuningArgs};
 use crate::error::Error;
 use crate::output::Output;
@@ -12,6 +13,8 @@ use eigenring_atlas::tune::{Found, at, over_lambda};
 use serde_json::Value;
 use std::process::ExitCode;
 
+const EXAMPLES: &str = "Examples:\n  eigenring tune -N 6 --lambda 0.39\n  eigenring tune -N 25 --global --format json";
+
 /// Optimise f2 and f3 at one lambda, or lambda too.
 ///
 /// At one lambda there may be several local minima; the one reported is that of the branch which is continued
@@ -19,7 +22,10 @@ use std::process::ExitCode;
 /// lowest (branch: "lowest"). The lowest value is reported beside it.
 #[derive(Args, Debug)]
 #[command(group = ArgGroup::new("target").required(true))]
-#[command(after_help = "Examples:\n  eigenring tune -N 6 --lambda 0.39\n  eigenring tune -N 25 --global --format json")]
+#[command(
+    after_help = EXAMPLES,
+    after_long_help = with_words(EXAMPLES, "tune")
+)]
 pub struct Arguments {
     #[command(flatten)]
     valence: Valence,

@@ -155,7 +155,7 @@ impl Member {
     /// The scheme, in any scalar: valence, lambda, s, phi, f2 and f3 stand for the numbers that they are.
     ///
     /// # Errors
-    /// Those of [`OneRing::scheme`](crate::OneRing::scheme).
+    /// Those of [`OneRing::scheme`](crate::OneRing::scheme), and [`Error::Divisor`].
     pub fn scheme<S: Scalar + Copy>(&self, name: impl Into<String>) -> Result<Scheme<S>, Error> {
         let plane = Plane {
             valence: self.plane.valence,
@@ -163,6 +163,7 @@ impl Member {
             s: S::exact(self.plane.s),
             phi: S::exact(self.plane.phi),
         };
+        self.plane.check(self.f2, self.f3)?;
         let weights = plane.stencil(S::exact(self.f2), S::exact(self.f3)).weights;
         weights.scheme(name, self.plane.valence)
     }

@@ -68,6 +68,31 @@ impl Plane<f64> {
     }
 }
 
+impl Plane<f64> {
+    /// Refuses weights that are no numbers, with what they are divided by.
+    ///
+    /// # Errors
+    /// [`Error::Divisor`].
+    pub fn check(&self, f2: f64, f3: f64) -> Result<(), Error> {
+        let LambdaStencil { weights: w, g1, g2, g3 } = self.stencil(f2, f3);
+        let weights = [w.f1, w.d1, w.d2, w.e1, w.e2, w.alpha, w.beta, g1, g2, g3];
+        if weights.iter().all(|weight| weight.is_finite()) {
+            return Ok(());
+        }
+        let divisor = match self.g3_and_h(f3) {
+            (g3, h) if !(g3.is_finite() && h.is_finite()) => "C - D f3, the divisor of g3",
+            _ if !g2.is_finite() => "f2",
+            _ => "the divisor of beta",
+        };
+        Err(Error::Divisor {
+            valence: self.valence,
+            lambda: self.lambda,
+            weights: [f2, f3],
+            divisor,
+        })
+    }
+}
+
 impl<S: Scalar + Copy> Plane<S> {
     /// `cos(2 pi k / N)`.
     pub fn cosine(&self, k: i64) -> S {
@@ -185,6 +210,27 @@ mod tests {
             let (c, d) = (2.0 * w.f2 - w.alpha, w.f3 - w.beta);
             let characteristic = (a - mu) * (d - mu) - b * c;
             assert_relative_eq!(characteristic, 0.0, epsilon = 1e-14);
+        }
+    }
+
+    #[test]
+    fn divisors_that_vanish_are_named() {
+        let plane = Plane::new(6, 0.5, 1.0).unwrap();
+        plane.check(0.25, 0.2).unwrap();
+        // C = D f3 with c1 = 1/2, c2 = -1/2, mu = 1/4: C = 1/4, D = 5/4
+        for (f2, f3, named) in [
+            (0.0, 0.1, "f2"),
+            (1e-310, 0.1, "f2"),
+            (0.25, 0.2, ""),
+            (0.3, f64::NAN, "C - D f3"),
+        ] {
+            match plane.check(f2, f3) {
+                Ok(()) => assert_eq!(named, ""),
+                Err(error) => assert!(
+                    error.to_string().contains(named) && error.to_string().contains("N = 6"),
+                    "{error}"
+                ),
+            }
         }
     }
 

@@ -2,7 +2,7 @@
 
 mod all;
 
-use super::{RESULTS, UNSTORED};
+use super::{RESULTS, UNSTORED, with_words};
 use crate::args::{self, CornerArgs, SchemeSettings};
 use crate::error::Error;
 use crate::files;
@@ -23,6 +23,8 @@ use eigenring_scheme::user::Reading;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+const EXAMPLES: &str = "Examples:\n  eigenring verify --scheme catmull-clark -N 5\n  eigenring verify --scheme lambda:optimal -N 3,6..8 --require strict\n  eigenring verify --lambda-range 0.4..0.6 -N 6 --require strict\n  eigenring verify --scheme catmull-clark -N 3 --format json\n  eigenring verify --scheme catmull-clark -N 7 -o N7.json   store the certificate, to be checked again:\n  eigenring verify --recheck N7.json\n  eigenring verify --all                                       rebuilds results/certificates";
+
 /// Prove that a scheme is C1, or has bounded curvature, at a valence or over a range of lambda.
 ///
 /// What is certified is the exact scheme: decimals and fractions stand for themselves. Each statement is
@@ -32,7 +34,8 @@ use std::process::ExitCode;
 #[derive(Args, Debug)]
 #[command(group = ArgGroup::new("what").required(true).multiple(true))]
 #[command(
-    after_help = "Examples:\n  eigenring verify --scheme catmull-clark -N 5\n  eigenring verify --scheme lambda:optimal -N 3,6..8 --require strict\n  eigenring verify --lambda-range 0.4..0.6 -N 6 --require strict\n  eigenring verify --scheme catmull-clark -N 3 --format json\n  eigenring verify --scheme catmull-clark -N 7 -o N7.json   store the certificate, to be checked again:\n  eigenring verify --recheck N7.json\n  eigenring verify --all                                       rebuilds results/certificates"
+    after_help = EXAMPLES,
+    after_long_help = with_words(EXAMPLES, "verify")
 )]
 pub struct Arguments {
     /// The scheme: see 'eigenring --help'; with --lambda-range its weights f2 and f3 are kept, by default
@@ -41,8 +44,8 @@ pub struct Arguments {
     scheme: Option<SchemeName>,
     #[command(flatten)]
     settings: SchemeSettings,
-    /// Valences: numbers and ranges, such as 5 or 3,5..8, with a certificate for each; may be left out with
-    /// --fan and --knots, which fix it. With --all: those of the lambda-scheme, by default 3..20
+    /// Valences: numbers and ranges, such as 5 or 3,5..8, with a certificate for each; may be left out where
+    /// --fan, --knots or a scheme file for one valence fix it. With --all: those of the lambda-scheme, by default 3..20
     #[arg(
         short = 'N',
         long = "valence",
@@ -161,7 +164,7 @@ impl Arguments {
         let valences = self.valences.as_ref().map(Valences::closed).transpose()?;
         if let Some(range) = &self.parameter {
             self.corner.refuse("over a range of a parameter")?;
-            return self.over_parameter(valences.ok_or_else(valences::missing)?, range);
+            return self.over_parameter(valences, range);
         }
         match self.lambda_range {
             Some(lambda) => {
@@ -174,16 +177,16 @@ impl Arguments {
 
     /// Certificates of a scheme around the corners that are asked for, one for each valence.
     fn at_corners(&self, valences: Option<&[usize]>) -> Result<ExitCode, Error> {
-        let corners = match valences {
-            Some(valences) => valences
-                .iter()
-                .map(|&valence| self.corner.shape(Some(valence)))
-                .collect(),
-            None => self.corner.shape(None).map(|corner| vec![corner]),
-        }?;
         let scheme = self.scheme.clone();
         let scheme = scheme.ok_or_else(|| Error::usage("no scheme is given", "--scheme SPEC"))?;
         let scheme = &self.settings.apply(scheme)?;
+        let corners = match valences {
+            Some(valences) => valences
+                .iter()
+                .map(|&valence| self.corner.shape(Some(valence), scheme))
+                .collect(),
+            None => self.corner.shape(None, scheme).map(|corner| vec![corner]),
+        }?;
         if self.exact && !matches!(scheme, SchemeName::File(_)) {
             return Err(Error::usage(
                 "--exact has no meaning for a scheme that is built in, whose weights are exact",
@@ -234,18 +237,23 @@ impl Arguments {
         Ok(exit(statuses.iter().all(|&status| status == Status::Proven)))
     }
 
-    fn over_parameter(&self, valences: &[usize], range: &(String, [Number; 2])) -> Result<ExitCode, Error> {
+    fn over_parameter(&self, valences: Option<&[usize]>, range: &(String, [Number; 2])) -> Result<ExitCode, Error> {
         let requirement: Requirement = self.require.into();
         let scheme = self.scheme.clone();
         let scheme = scheme.ok_or_else(|| Error::usage("no scheme is given", "--scheme SPEC"))?;
         let scheme = self.settings.apply(scheme)?;
+        let valences = match valences {
+            Some(valences) => valences.to_vec(),
+            None => vec![args::only_valence(&scheme)?],
+        };
         let reading = if self.exact { Reading::Exact } else { Reading::Balanced };
         let inputs = valences
             .iter()
             .map(|&valence| Ok((valence, ranged(&scheme, valence, range, reading, &args::tuner())?)));
         let inputs: Vec<_> = inputs.collect::<Result<_, Error>>()?;
         let certificates = each(&Terminal, "ranges", &inputs, |(valence, input)| {
-            parameter::prove(input.clone(), *valence, requirement, parameter::Limits::default())
+            let proven = parameter::prove(input.clone(), *valence, requirement, parameter::Limits::default());
+            scheme.blamed(proven)
         })?;
         self.store(&certificates, |certificate| {
             (certificate.valence, certificate.to_line())
