@@ -130,7 +130,12 @@ impl Input {
         match self {
             Input::Family { spec } | Input::Corner { spec, .. } => spec.clone(),
             Input::Lambda { lambda, s, f2, f3 } => match f3 {
-                Some(f3) => format!("lambda:lambda={lambda},f2={f2},f3={f3},s={s}"),
+                Some(f3) => Spec::Lambda {
+                    lambda: *lambda,
+                    s: Some(*s),
+                    weights: Some((*f2, *f3)),
+                }
+                .to_string(),
                 None => format!("lambda:lambda={lambda},f2={f2},f3=mu,s={s}"),
             },
             Input::Toml {
