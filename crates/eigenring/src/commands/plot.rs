@@ -205,7 +205,7 @@ impl Arguments {
                 for (index, (end, contents)) in files.iter().enumerate() {
                     match (index, is_replaced(path)) {
                         (0, true) => written.write(path.to_owned(), contents)?,
-                        (0, false) => return Ok(files::emit(Some(path), contents).map(|()| ExitCode::SUCCESS)?),
+                        (0, false) => return files::emit(Some(path), contents).map(|()| ExitCode::SUCCESS),
                         _ => written.write(with_end(&stem, end), contents)?,
                     }
                 }
