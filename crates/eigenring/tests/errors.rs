@@ -116,7 +116,7 @@ fn divisors_that_vanish() {
     ] {
         let (message, _) = refused(&place, &line.split(' ').collect::<Vec<_>>());
         assert!(
-            message.starts_with("v.toml: line 15") && message.contains("division by zero at n = 5"),
+            message.starts_with("v.toml: line 14") && message.contains("division by zero at n = 5"),
             "{line}: {message}"
         );
     }
