@@ -150,7 +150,7 @@ mod tests {
         let stream = &bytes[find(b"stream\n") + 7..find(b"\nendstream")];
         let drawn = miniz_oxide::inflate::decompress_to_vec_zlib(stream).unwrap();
         let drawn = String::from_utf8(drawn).unwrap();
-        // a quarter down is 108 from below; paths are in units of the drawing, here of one that is half as large
+        // a quarter down is 108 from below; paths are in units of a drawing that is half as large
         let lines: Vec<&str> = drawn.lines().collect();
         let matrix: Vec<f64> = lines[1]
             .split(' ')

@@ -45,7 +45,8 @@ pub struct Arguments {
     #[command(flatten)]
     settings: SchemeSettings,
     /// Valences: numbers and ranges, such as 5 or 3,5..8, with a certificate for each; may be left out where
-    /// --fan, --knots or a scheme file for one valence fix it. With --all: those of the lambda-scheme, by default 3..20
+    /// --fan, --knots or a scheme file for one valence fix it. With --all: those of the lambda-scheme, by
+    /// default 3..20
     #[arg(
         short = 'N',
         long = "valence",
