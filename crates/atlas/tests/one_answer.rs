@@ -120,7 +120,7 @@ fn other_commands_say_what_compare_says() {
                 .spectrum
                 .eigenvalues
                 .iter()
-                .map(|e| e.value.0 * e.multiplicity as f64)
+                .map(|e| e.value.re * e.multiplicity as f64)
                 .sum();
             assert!(
                 (trace - sum).abs() < 1e-10 * matrix.rows() as f64,
@@ -136,9 +136,10 @@ fn other_commands_say_what_compare_says() {
             }
             // a defective matrix has no such list
             if let Ok(vectors) = Eigenvectors::new(&analysis) {
-                let listed = vectors.vectors.iter().map(|v| (v.value.0, v.value.1.abs()));
+                let listed = vectors.vectors.iter().map(|v| (v.value.re, v.value.im.abs()));
                 let repeated = analysis.spectrum.eigenvalues.iter();
-                let repeated = repeated.flat_map(|e| std::iter::repeat_n((e.value.0, e.value.1.abs()), e.multiplicity));
+                let repeated =
+                    repeated.flat_map(|e| std::iter::repeat_n((e.value.re, e.value.im.abs()), e.multiplicity));
                 assert!(listed.eq(repeated), "{place}");
             }
             if let Some(member) = name.member(valence, &tuner).unwrap() {
@@ -208,7 +209,7 @@ fn tables_of_figures_say_what_spectra_say() {
                     let known = analysis.spectrum.eigenvalues.iter();
                     let known = known.map(|e| {
                         let geometric = e.geometric.map(|count| count as u64);
-                        (e.value.0, e.value.1, Some(e.multiplicity as u64), geometric)
+                        (e.value.re, e.value.im, Some(e.multiplicity as u64), geometric)
                     });
                     assert!(listed.eq(known), "{place}");
                 } else {
