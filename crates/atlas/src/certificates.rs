@@ -29,12 +29,15 @@ pub fn input(scheme: &SchemeName, valence: usize, reading: Reading, tuner: &Tune
             scheme
                 .exact(valence)
                 .map_err(|error| Error::from(error).in_file(&file.path))?;
-            let set = scheme.parameters().iter().filter(|known| known.value != known.default);
+            let set = scheme
+                .parameters()
+                .iter()
+                .filter_map(|known| Some((&known.name, known.changed()?)));
             Ok(Input::Toml {
                 text: crate::files::read(&file.path)?,
                 name: stem(&file.path),
                 reading,
-                parameters: set.map(|known| (known.name.clone(), known.value.to_string())).collect(),
+                parameters: set.map(|(name, value)| (name.clone(), value.to_string())).collect(),
             })
         }
         SchemeName::Spec(spec) => Ok(match tuner.member(spec, valence)? {

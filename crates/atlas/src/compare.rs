@@ -6,11 +6,11 @@ use crate::schemes::{SchemeName, Tuner, distinct};
 use crate::spectrum::Analysis;
 use crate::table::{Format, Table, WIDTH};
 use eigenring_scheme::{Corner, Scheme};
-use eigenring_spectral::{Extended, outer};
+use eigenring_spectral::{Extended, Spectrum};
 use eigenring_tune::quality::Quality;
 
 /// Gauss points per patch and direction, as in the tuning.
-const QUADRATURE: usize = 5;
+pub(crate) const QUADRATURE: usize = 5;
 
 /// How far the dominant eigenvalue may be from 1: rounding, with room for condition numbers up to 1e6.
 const EQUAL: f64 = 1e-9;
@@ -52,29 +52,19 @@ impl Row {
     /// Those of its local system. Maps that do not exist are no error, but a remark.
     pub fn new(name: &str, scheme: &Scheme<f64>, extended: Option<&Scheme<Extended>>) -> Result<Self, Error> {
         // the eigenvalues that `spectrum` prints
-        let Analysis {
-            system,
-            spectrum,
-            closed,
-            ..
-        } = Analysis::of_rules(scheme, extended, None, None)?;
-        let rings = system.numbering().rings;
-        let beyond = match closed {
-            Some((closed, outer)) if closed == rings => outer,
-            _ => outer(scheme.limit(), rings)?,
-        };
+        let analysis = Analysis::of_rules(scheme, extended, None, None)?;
+        let beyond = analysis.beyond(scheme)?;
+        let spectrum = analysis.spectrum;
         let hull = hull(scheme)?;
         let subdominant = spectrum.subdominant();
         let lambda = subdominant.map(|e| e.modulus());
         let mu = spectrum.subsubdominant().map(|e| e.modulus());
         let mut remarks = Vec::new();
         let dominant = spectrum.eigenvalues.first().map_or(0.0, |e| e.modulus());
-        let affine = (dominant - 1.0).abs() <= EQUAL;
+        let (affine, spanned) = spans(&spectrum);
         if !affine {
             remarks.push(format!("the dominant eigenvalue is {dominant:.6}, not 1"));
         }
-        // where the tangent plane is not spanned by block 1 there is no characteristic map to measure
-        let spanned = subdominant.is_some_and(|e| e.fourier.is_none_or(|k| k == 1));
         if affine && !spanned {
             let fourier = subdominant.and_then(|e| e.fourier).unwrap_or_default();
             let tie = if spectrum.stray().is_none() {
@@ -97,8 +87,7 @@ impl Row {
         if hull.is_some_and(|least| least < 0.0) {
             remarks.push("weights are negative".to_owned());
         }
-        // other degrees live on other annuli with other norms
-        let comparable = quality.filter(|quality| scheme.degree() == Some(3) && quality.theta.is_some());
+        let comparable = quality.and_then(|quality| comparable(scheme, quality));
         Ok(Row {
             valence: scheme.valence(),
             scheme: name.to_owned(),
@@ -115,9 +104,26 @@ impl Row {
     }
 }
 
+/// Whether 1 is the dominant eigenvalue, and whether block 1 spans the tangent plane: where it does not there
+/// is no characteristic map to measure.
+pub(crate) fn spans(spectrum: &Spectrum) -> (bool, bool) {
+    let dominant = spectrum.eigenvalues.first().map_or(0.0, |e| e.modulus());
+    let subdominant = spectrum.subdominant();
+    (
+        (dominant - 1.0).abs() <= EQUAL,
+        subdominant.is_some_and(|e| e.fourier.is_none_or(|k| k == 1)),
+    )
+}
+
+/// The maps of schemes that can be compared by E and K_m: bicubic ones around a vertex. Other degrees live on
+/// other annuli with other norms.
+pub(crate) fn comparable(scheme: &Scheme<f64>, quality: Quality) -> Option<Quality> {
+    Some(quality).filter(|quality| scheme.degree() == Some(3) && quality.theta.is_some())
+}
+
 /// The smallest weight, of those that are not zero, of a control point in a point that is refined once, over
 /// all levels: what the margin of `hull` in a certificate is.
-fn hull(scheme: &Scheme<f64>) -> Result<Option<f64>, Error> {
+pub(crate) fn hull(scheme: &Scheme<f64>) -> Result<Option<f64>, Error> {
     let mut least: Option<f64> = None;
     for level in (0..=scheme.leading().len()).map(|index| scheme.level(index)) {
         let rows = level.rows(&level.row_sites()?)?;

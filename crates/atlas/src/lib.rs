@@ -31,6 +31,7 @@
 //! | [`given`], [`numbers`] | a matrix that somebody has, whatever its order and rotation; reading tables of numbers |
 //! | [`compare`] | schemes side by side over valences |
 //! | [`stencil`], [`tune`] | one member of the lambda-scheme; the best one |
+//! | [`tuning`] | the best values for the parameters of a scheme file |
 //! | [`certificates`], [`report`] | what is certified, checked again, summed up and printed |
 //! | [`curve`] | curves and surfaces of revolution |
 //! | [`meshes`], [`limits`], [`curvature`] | limit points as tables; mesh files, the rules of a scheme on a mesh, refinement |
@@ -77,5 +78,6 @@ pub mod sweep;
 pub mod table;
 pub mod tension;
 pub mod tune;
+pub mod tuning;
 
 pub use error::{Accepted, Error, accepted_in};

@@ -169,6 +169,18 @@ impl Analysis {
         })
     }
 
+    /// The largest modulus of the eigenvalues that are not listed: those of the rings outside.
+    ///
+    /// # Errors
+    /// Those of [`outer`].
+    pub fn beyond(&self, scheme: &Scheme<f64>) -> Result<f64, Error> {
+        let rings = self.system.numbering().rings;
+        Ok(match self.closed {
+            Some((closed, outer)) if closed == rings => outer,
+            _ => outer(scheme.limit(), rings)?,
+        })
+    }
+
     /// A warning if rows do not sum to 1.
     pub fn warning(&self) -> Option<String> {
         let defect = self.system.row_sum_defect();

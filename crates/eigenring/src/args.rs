@@ -171,6 +171,17 @@ impl SchemeSettings {
     pub fn apply(&self, scheme: SchemeName) -> Result<SchemeName, Error> {
         Ok(scheme.setting(&self.values)?)
     }
+
+    /// Refuses values where there is no scheme; `accepted` is what they go with.
+    ///
+    /// # Errors
+    /// Any values.
+    pub fn refuse(&self, accepted: &str) -> Result<(), Error> {
+        match self.values.is_empty() {
+            true => Ok(()),
+            false => Err(Error::usage("--set has no meaning without a scheme file", accepted)),
+        }
+    }
 }
 
 /// One scheme.

@@ -149,6 +149,16 @@ impl Output {
             .into())
     }
 
+    /// The file that was named.
+    pub fn file(&self) -> Option<&Path> {
+        self.out.as_deref()
+    }
+
+    /// The format of what is printed beside a file of another kind.
+    pub fn printed(&self) -> Format {
+        self.format.format()
+    }
+
     /// Prints or writes what was made.
     ///
     /// # Errors

@@ -70,6 +70,15 @@ impl FromStr for Valences {
     }
 }
 
+/// Reads one valence, or a list without open ranges: what is neither is refused as the one that it resembles.
+pub fn one_or_list(text: &str) -> Result<Valences, String> {
+    if text.contains(',') || text.contains("..") {
+        return list(text);
+    }
+    let listed = vec![one_of_scheme(text)?];
+    Ok(Valences { listed, from: None })
+}
+
 /// Reads a list without open ranges.
 pub fn list(text: &str) -> Result<Valences, String> {
     let valences: Valences = text.parse()?;

@@ -14,4 +14,5 @@ mod plot;
 mod surfaces;
 mod tables;
 mod tension;
+mod tune_files;
 mod verify;

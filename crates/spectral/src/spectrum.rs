@@ -272,9 +272,18 @@ impl Spectrum {
     /// are the largest of the blocks 0, 2 and N-2 below 1 and lambda, `mu` is the smallest of their moduli,
     /// and `beyond` the largest modulus of eigenvalues that are not listed.
     ///
-    /// `None` where it would mean nothing: 1 is not dominant, the subdominant eigenvalue is not a simple one
-    /// of block 1, or the next is not below mu.
+    /// `None` where it would mean nothing: as [`Spectrum::sixth`], or the next is not below mu.
     pub fn strictness(&self, valence: usize, beyond: f64) -> Option<f64> {
+        let sixth = self.sixth(valence, beyond)?;
+        (sixth < 1.0 - SAME).then(|| 1.0 - sixth)
+    }
+
+    /// `|next| / mu`, for mu and next as in [`Spectrum::strictness`]: the modulus of the sixth eigenvalue
+    /// beside that of the three before it, below 1 if these lead.
+    ///
+    /// `None` where it would mean nothing: 1 is not dominant, or the subdominant eigenvalue is not a simple
+    /// one of block 1.
+    pub fn sixth(&self, valence: usize, beyond: f64) -> Option<f64> {
         let leading = self.eigenvalues.first().filter(|e| (e.modulus() - 1.0).abs() <= SAME)?;
         let pair = self.subdominant().filter(|e| e.fourier == Some(1))?;
         let (mut left, mut mu) = (vec![], f64::INFINITY);
@@ -295,7 +304,7 @@ impl Spectrum {
             left.extend(moduli.next());
         }
         let next = left.into_iter().fold(beyond, f64::max);
-        (next < mu * (1.0 - SAME)).then(|| 1.0 - next / mu)
+        (mu > 0.0).then_some(next / mu)
     }
 }
 

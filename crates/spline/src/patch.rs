@@ -28,7 +28,11 @@ pub struct Jet<S> {
 impl<S: Scalar + Copy> TensorPatch<S> {
     /// Value and derivatives at `(u, v)` in the unit square.
     pub fn jet(&self, u: S, v: S) -> Jet<S> {
-        let (in_u, in_v) = (basis(self.degree, u), basis(self.degree, v));
+        self.jet_in(&basis(self.degree, u), &basis(self.degree, v))
+    }
+
+    /// The same from the [`basis`] functions of the degree at u and at v, for many patches.
+    pub fn jet_in(&self, in_u: &[Vec<S>; 3], in_v: &[Vec<S>; 3]) -> Jet<S> {
         let width = self.degree + 1;
         let combine = |du: usize, dv: usize| {
             let mut sum = S::zero();

@@ -3,8 +3,9 @@
 //! From the inside out: [`objective`] says how good the stencil (f2, f3) at one lambda is, [`search`] finds
 //! its minima over the feasible domain, [`sweep`] does so at many lambdas and connects the minima to a
 //! branch, [`global`] finds the best lambda, [`spline`] fits the spline stencils, and [`study`] is all of
-//! this for one valence. [`quality`] measures any scheme. The output of tuning is an ordinary scheme: nothing
-//! else needs to know how its stencils were found.
+//! this for one valence. [`quality`] measures any scheme, and [`minimise`] finds the best of a family of
+//! which no more is known than its measures. The output of tuning is an ordinary scheme: nothing else needs
+//! to know how its stencils were found.
 //!
 //! The stencils of one lambda, as a sweep finds them at each of its samples:
 //!
@@ -25,6 +26,7 @@
 //! ```
 
 pub mod global;
+pub mod minimise;
 pub mod objective;
 pub mod quality;
 pub mod search;

@@ -14,6 +14,9 @@ use eigenring_scheme::{Lattice, Scheme, Site};
 use eigenring_spectral::{Annulus, Error, Graph, Maps};
 use eigenring_spline::TensorPatch;
 use eigenring_spline::quadrature::gauss_legendre;
+use eigenring_spline::uniform::basis;
+
+use crate::objective::{Settings, Weight};
 
 /// One second-order map's share.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +25,9 @@ pub struct MapQuality {
     pub mu: f64,
     /// The unweighted squared error E_i; infinite if the map's second derivatives are not square integrable.
     pub value: f64,
+    /// The same weighted where the Gauss curvature has the wrong sign, by the paper's constants (Ma, Wang and
+    /// Ma 2023, Eqs. 16 to 20).
+    pub weighted: f64,
     /// Smallest `z_xx z_yy - z_xy^2` over the Gauss points.
     pub gauss_min: f64,
     /// Largest `z_xx z_yy - z_xy^2` over the Gauss points.
@@ -53,6 +59,8 @@ impl Quality {
         let norm = |net: &[f64]| net.iter().map(|v| v * v).sum::<f64>().sqrt();
         let plane_norm = norm(&maps.natural[0]);
         let p = maps.lambda * maps.lambda;
+        let Settings { epsilon, n, .. } = Settings::default();
+        let weight = Weight::new(epsilon, n);
         let area: f64 = points.iter().map(|point| point.area).sum();
         let parts = std::array::from_fn(|which| {
             // z / |z| over x / |x|: second derivatives scale by |x|^2 / |z|
@@ -63,23 +71,37 @@ impl Quality {
                 1.0 / (1.0 - p),
                 p * (s - 1.0).powi(2) / ((1.0 - p * s * s) * (1.0 - p * s).powi(2)),
             );
-            let mut value = 0.0;
-            for component in 0..3 {
+            let means: [f64; 3] = std::array::from_fn(|component| {
                 let h = |point: &QuadraturePoint| scale * point.graphs[which].hessian[component];
-                let mean = points.iter().map(|point| point.area * h(point)).sum::<f64>() * rho / area;
+                points.iter().map(|point| point.area * h(point)).sum::<f64>() * rho / area
+            });
+            let mut value = 0.0;
+            for (component, mean) in means.into_iter().enumerate() {
+                let h = |point: &QuadraturePoint| scale * point.graphs[which].hessian[component];
                 value += points
                     .iter()
                     .map(|point| point.area * (c0 * (mean - rho * h(point)).powi(2) + far * h(point).powi(2)))
                     .sum::<f64>();
             }
+            let ideal = means[0] * means[2] - means[1] * means[1];
+            let weighted: f64 = points
+                .iter()
+                .map(|point| {
+                    let gauss = scale * scale * point.graphs[which].gauss();
+                    let (w, _) = weight.at(if ideal == 0.0 { 0.0 } else { gauss / ideal });
+                    let squares = point.graphs[which].hessian.iter().zip(means).map(|(h, mean)| {
+                        let h = scale * h;
+                        c0 * (mean - rho * h).powi(2) + far * h * h
+                    });
+                    w * point.area * squares.sum::<f64>()
+                })
+                .sum();
             let gauss = points.iter().map(|point| scale * scale * point.graphs[which].gauss());
+            let exists = p * s * s < 1.0;
             MapQuality {
                 mu: maps.mu[which],
-                value: if p * s * s < 1.0 {
-                    value / (c0 * area)
-                } else {
-                    f64::INFINITY
-                },
+                value: if exists { value / (c0 * area) } else { f64::INFINITY },
+                weighted: if exists { weighted / (c0 * area) } else { f64::INFINITY },
                 gauss_min: gauss.clone().fold(f64::INFINITY, f64::min),
                 gauss_max: gauss.fold(f64::NEG_INFINITY, f64::max),
             }
@@ -100,6 +122,11 @@ impl Quality {
         self.maps.iter().map(|map| map.value).sum()
     }
 
+    /// The objective that is tuned: the sum of the three weighted values.
+    pub fn weighted(&self) -> f64 {
+        self.maps.iter().map(|map| map.weighted).sum()
+    }
+
     /// `K_m` of Ma, Wang and Ma (2023, Eq. 33), with the numerators of the Gauss curvatures.
     pub fn sign_change(&self) -> f64 {
         let [cup, first, second] = self.maps;
@@ -115,16 +142,22 @@ struct QuadraturePoint {
 
 fn quadrature_points(maps: &Maps, order: usize) -> Vec<QuadraturePoint> {
     let rule = gauss_legendre(order);
+    let functions: Vec<[Vec<f64>; 3]> = rule.iter().map(|node| basis(maps.annulus.degree, node.at)).collect();
     let n = maps.annulus.numbering.fan.sectors();
     let patches = (0..n).flat_map(|sector| maps.annulus.patches(sector));
     patches
         .flat_map(|patch| {
-            let [x, y] = [0, 1].map(|i| maps.annulus.patch(&maps.natural[i], patch));
-            let heights = [0, 1, 2].map(|i| maps.annulus.patch(&maps.second_order[i], patch));
+            let control = maps.annulus.control(patch);
+            let patch = |net: &Vec<f64>| TensorPatch {
+                degree: maps.annulus.degree,
+                control: control.iter().map(|&index| net[index]).collect(),
+            };
+            let [x, y] = maps.natural.each_ref().map(patch);
+            let heights = maps.second_order.each_ref().map(patch);
             let mut points = Vec::with_capacity(order * order);
-            for u in &rule {
-                for v in &rule {
-                    let jet = |patch: &TensorPatch<f64>| patch.jet(u.at, v.at);
+            for (u, in_u) in rule.iter().zip(&functions) {
+                for (v, in_v) in rule.iter().zip(&functions) {
+                    let jet = |patch: &TensorPatch<f64>| patch.jet_in(in_u, in_v);
                     let (x, y) = (jet(&x), jet(&y));
                     let graphs = heights.each_ref().map(|z| Graph::new(&x, &y, &jet(z)));
                     points.push(QuadraturePoint {
@@ -167,11 +200,13 @@ mod tests {
             let domain =
                 Domain::new(plane, Bounds::Paper, 1e-3).unwrap_or(Domain::new(plane, Bounds::Paper, 0.0).unwrap());
             let [f2, f3] = domain.starts(3)[1];
-            let settings = Settings {
-                weighted: false,
-                ..Settings::default()
-            };
-            let parts = Objective::new(plane, settings).unwrap().parts(f2, f3).unwrap();
+            let [parts, weighted] = [false, true].map(|weighted| {
+                let settings = Settings {
+                    weighted,
+                    ..Settings::default()
+                };
+                Objective::new(plane, settings).unwrap().parts(f2, f3).unwrap()
+            });
             let scheme = plane.stencil(f2, f3).weights.scheme("lambda", valence).unwrap();
             let quality = Quality::new(&scheme, 5).unwrap();
             let close = |a: f64, b: f64| (a - b).abs() <= 1e-6 * a.abs().max(b.abs()).max(1.0);
@@ -183,6 +218,13 @@ mod tests {
                     theirs.value
                 );
                 assert!(close(ours.gauss_min, theirs.gauss_min) && close(ours.gauss_max, theirs.gauss_max));
+            }
+            let weighted = [weighted.cup, weighted.saddle_re, weighted.saddle_im];
+            for (ours, theirs) in quality.maps.iter().zip(weighted) {
+                assert!(
+                    close(ours.weighted, theirs.value),
+                    "{valence} {lambda}: {ours:?} {theirs:?}"
+                );
             }
             assert!(close(quality.jacobian_min, parts.jacobian_min));
             assert!((quality.theta.unwrap() - domain.theta(f2, f3)).abs() < 1e-9);

@@ -30,7 +30,7 @@ pub(super) fn ranged_subject(
             if known.name == parameter {
                 range
             } else {
-                known.value.to()
+                known.at(valence).to()
             }
         })
         .collect();

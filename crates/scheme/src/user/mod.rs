@@ -74,6 +74,9 @@
 //! ]
 //! ```
 //!
+//! A parameter may have values of its own at single valences, `except = { "5" = "0.26", "6" = "0.27" }`
+//! beside its default, as tuning finds them; what is set from outside holds at every valence.
+//!
 //! Formulas are made of numbers, `+ - * / ^`, brackets, `n`, in a stencil over all sectors `k`, parameters,
 //! names, in the one-ring form the other weights, `sqrt(..)`, `cos(..)` and `sin(..)` of rational multiples
 //! of `pi`, `sum(k, ..)` over all sectors and `sum(k, from, to, ..)`. With `tension = "2"` (a number or a
@@ -94,6 +97,7 @@ mod formula;
 mod parameters;
 mod rules;
 mod starters;
+mod tuned;
 mod valence_rules;
 
 pub use balance::Balance;
@@ -131,6 +135,20 @@ pub struct UserScheme {
     free: Vec<usize>,
     /// The scheme at the valences that are listed.
     entries: Vec<(usize, ValenceRules)>,
+}
+
+/// The rules of a file at one valence, read once.
+#[derive(Clone, Debug)]
+pub struct RulesAt {
+    name: String,
+    entry: ValenceRules,
+}
+
+impl RulesAt {
+    /// The scheme with the given values of all parameters, which count where the parameter is open.
+    pub fn scheme<S: Scalar>(&self, values: &[S]) -> Scheme<S> {
+        self.entry.scheme(&self.name, values)
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -180,7 +198,7 @@ impl UserScheme {
                 return Err(refuse(format!("{} is set twice: accepted is once", parameter.name)));
             }
             known.push(index);
-            parameter.value = parameter.check(value.clone()).map_err(refuse)?;
+            parameter.set = Some(parameter.check(value.clone()).map_err(refuse)?);
         }
         match known.is_empty() {
             true => Ok(scheme),
@@ -246,10 +264,13 @@ impl UserScheme {
         Ok(self)
     }
 
-    /// The name, with the parameters that have another value than their default.
+    /// The name, with the parameters that are set to another value than the file's.
     pub fn name(&self) -> String {
-        let set = self.parameters().iter().filter(|known| known.value != known.default);
-        let set: String = set.map(|known| format!(",{}={}", known.name, known.value)).collect();
+        let set = self
+            .parameters()
+            .iter()
+            .filter_map(|known| Some((&known.name, known.changed()?)));
+        let set: String = set.map(|(name, value)| format!(",{name}={value}")).collect();
         format!("{}{set}", self.name)
     }
 
@@ -303,7 +324,7 @@ impl UserScheme {
     /// # Errors
     /// As [`UserScheme::exact`].
     pub fn scheme<S: Scalar>(&self, valence: usize) -> Result<Scheme<S>, Error> {
-        let values: Vec<S> = self.parameters().iter().map(|known| known.value.to()).collect();
+        let values: Vec<S> = self.parameters().iter().map(|known| known.at(valence).to()).collect();
         self.scheme_with(valence, &values)
     }
 
@@ -313,6 +334,17 @@ impl UserScheme {
     /// As [`UserScheme::exact`].
     pub fn scheme_with<S: Scalar>(&self, valence: usize, values: &[S]) -> Result<Scheme<S>, Error> {
         Ok(self.entry(valence)?.scheme(&self.name(), values))
+    }
+
+    /// The rules at a valence, for many values of the open parameters.
+    ///
+    /// # Errors
+    /// As [`UserScheme::exact`].
+    pub fn at(&self, valence: usize) -> Result<RulesAt, Error> {
+        Ok(RulesAt {
+            name: self.name(),
+            entry: self.entry(valence)?.into_owned(),
+        })
     }
 
     /// Whether the weights of every point sum to 1 for all values of a parameter at which they have a value.

@@ -59,10 +59,10 @@ impl ValenceRules {
         let order = order(&definitions, needed).unwrap_or_default();
         let parameter = |(index, known): (usize, &super::Parameter)| match free.contains(&index) {
             true => Residual::Parameter(index),
-            false => Residual::Value(known.value.to()),
+            false => Residual::Value(known.at(n).to()),
         };
         let parameters: Vec<Residual> = contents.parameters.iter().enumerate().map(parameter).collect();
-        let values: Vec<f64> = contents.parameters.iter().map(|known| known.value.value()).collect();
+        let values: Vec<f64> = contents.parameters.iter().map(|known| known.at(n).value()).collect();
         let evaluator = |tension: Residual, value: f64| Evaluator {
             text: &contents.text,
             context: Context::new(n, tension, parameters.clone(), vec![None; definitions.len()]),

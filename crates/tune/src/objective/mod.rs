@@ -42,7 +42,7 @@ use eigenring_spline::{Dual, Scalar};
 use evaluate::{Coefficients, Outcome, SIGNS, Slope, curvature_extremes, evaluate};
 use fields::{Fields, Turns};
 use maps::Annuli;
-use weight::Weight;
+pub(crate) use weight::Weight;
 
 /// A number and its derivatives with respect to f2 and f3.
 type Dual2 = Dual<f64, 2>;

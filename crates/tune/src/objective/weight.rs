@@ -18,7 +18,7 @@
 
 /// The weight function with given epsilon and n.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Weight {
+pub(crate) struct Weight {
     /// `4 epsilon^2`.
     lower: f64,
     /// `4 n^2 epsilon^2`.

@@ -6,7 +6,8 @@ mod values;
 use super::formula::{self, Formula, Scope};
 use super::parameters::Parameter;
 use super::rules::Form;
-use crate::{Error, OneRing};
+use crate::{Error, Number, OneRing};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -43,6 +44,11 @@ impl SchemeText {
     /// "line 3, column 5: ".
     pub(super) fn place(&self, offset: usize) -> String {
         place(&self.0, offset)
+    }
+
+    /// All of it.
+    pub(super) fn whole(&self) -> &str {
+        &self.0
     }
 }
 
@@ -223,7 +229,7 @@ impl Reader<'_> {
         for (key, node) in entries {
             let name = self.word(key, stencils)?;
             let what = format!("parameter {name}");
-            let table = self.table(node, &what, &["default", "range", "doc"])?;
+            let table = self.table(node, &what, &["default", "range", "doc", "except"])?;
             let default = self.number(self.get(node, table, "default")?, &format!("{what}, default"))?;
             let doc = match table.get("doc") {
                 Some(node) => self
@@ -249,17 +255,44 @@ impl Reader<'_> {
                     Some([least, most])
                 }
             };
+            let except = match table.get("except") {
+                Some(node) => self.exceptions(node, &what)?,
+                None => BTreeMap::new(),
+            };
             let parameter = Parameter {
                 name,
-                value: default.clone(),
                 default,
+                except,
                 range,
                 doc,
+                set: None,
             };
-            parameter
-                .check(parameter.default.clone())
-                .map_err(|error| self.error(node, error))?;
+            for value in std::iter::once(&parameter.default).chain(parameter.except.values()) {
+                parameter
+                    .check(value.clone())
+                    .map_err(|error| self.error(node, error))?;
+            }
             found.push(parameter);
+        }
+        Ok(found)
+    }
+
+    /// The values of a parameter at single valences.
+    fn exceptions(&self, node: &Node, what: &str) -> Result<BTreeMap<usize, Number>, Error> {
+        const VALENCES: &str = "a table of valences with their values, such as { \"5\" = \"0.26\" }";
+        let Some(table) = node.get_ref().as_table() else {
+            return self.expected(node, &format!("{what}, except"), VALENCES);
+        };
+        let mut found = BTreeMap::new();
+        for (key, node) in table {
+            let valence = key.get_ref().parse::<usize>().ok();
+            let Some(valence) = valence.filter(|n| (3..=MAX_VALENCE).contains(n)) else {
+                let (place, key) = (place(self.text, key.span().start), key.get_ref());
+                return Err(file_error(format!(
+                    "{place}{what}, except: valence \"{key}\": accepted is {VALENCES}, from 3 to {MAX_VALENCE}"
+                )));
+            };
+            found.insert(valence, self.number(node, &format!("{what}, except \"{valence}\""))?);
         }
         Ok(found)
     }
