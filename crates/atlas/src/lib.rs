@@ -61,6 +61,7 @@ pub mod figures;
 pub mod files;
 pub mod given;
 pub mod glossary;
+pub mod grids;
 pub mod index;
 pub mod limits;
 pub mod matrix;

@@ -115,6 +115,24 @@ fn rgb(colour: Colour) -> [f32; 3] {
     [colour.0, colour.1, colour.2].map(|x| f32::from(x) / 255.0)
 }
 
+/// The camera moved and widened so that everything is in the picture, with a margin.
+fn framed(mut camera: Camera, all: &[Vec<Patch>], zoom: f64) -> Camera {
+    let mut ends = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+    for corner in all.iter().flatten().flat_map(|patch| &patch.corners) {
+        let d = corner.position - camera.centre;
+        for (end, axis) in ends.iter_mut().zip(&camera.axes) {
+            let x = axis.dot(&d);
+            *end = [end[0].min(x), end[1].max(x)];
+        }
+    }
+    for (end, axis) in ends.iter().zip(camera.axes) {
+        camera.centre += axis * ((end[0] + end[1]) / 2.0);
+    }
+    let size = ends.iter().fold(0.0, |most: f64, end| most.max(end[1] - end[0]));
+    camera.extent = 1.08 * size.max(f64::MIN_POSITIVE) / zoom;
+    camera
+}
+
 fn shaded(colour: [f32; 3], light: f64) -> [f32; 3] {
     colour.map(|x| x * light as f32)
 }
@@ -147,7 +165,7 @@ pub fn render(surfaces: &[(String, Surface<'_>)], settings: &Settings) -> Result
     let centre = Point3::from((low + high) / 2.0);
     let diameter = (high - low).norm();
     let [azimuth, elevation, zoom] = settings.view;
-    let camera = Camera::new(azimuth, elevation, centre, 0.86 * diameter / zoom);
+    let camera = framed(Camera::new(azimuth, elevation, centre, 1.0), &all, zoom);
     let light = Camera::new(azimuth + settings.light[0], elevation + settings.light[1], centre, 1.0).axes[2];
     let scale = scale_of(&all);
     let mut page = Pixels::new(

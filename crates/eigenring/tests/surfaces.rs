@@ -141,3 +141,97 @@ fn a_map_gives_single_vertices_a_lambda() {
     assert_ne!(plain["position_sum"], mapped["position_sum"]);
     assert_eq!(plain["faces"], mapped["faces"]);
 }
+
+#[test]
+fn grids_become_meshes() {
+    let place = place();
+    // the control mesh of an exact torus is one of the tension scheme, whose limit lies on it too
+    place.ok(&[
+        "make",
+        "revolve",
+        "torus-exact",
+        "--order",
+        "4",
+        "--around-order",
+        "4",
+        "-o",
+        "torus.obj",
+    ]);
+    let text = std::fs::read_to_string(place.path().join("torus.obj")).unwrap();
+    let scheme = text
+        .lines()
+        .find_map(|line| line.split_once("--scheme ")?.1.split_whitespace().next())
+        .expect("the file says how it is refined");
+    place.ok(&[
+        "limit",
+        "torus.obj",
+        "--scheme",
+        scheme,
+        "--per-face",
+        "2",
+        "-o",
+        "limit.csv",
+    ]);
+    let limit = std::fs::read_to_string(place.path().join("limit.csv")).unwrap();
+    let mut count = 0;
+    for line in limit.lines().skip(1) {
+        let cells: Vec<f64> = line.split(',').take(7).map(|cell| cell.parse().unwrap()).collect();
+        let off = (cells[4].hypot(cells[5]) - 2.0).hypot(cells[6]) - 1.0;
+        assert!(off.abs() < 1e-12, "{line}: {off:e}");
+        count += 1;
+    }
+    assert_eq!(count, 4 * 36);
+    for name in ["sphere", "cone", "catenoid", "lissajous", "fang-fig1"] {
+        place.ok(&["make", "revolve", name, "--levels", "2", "-o", "out.ply"]);
+        assert_eq!(place.json("mesh out.ply")["components"], 1, "{name}");
+    }
+    place.ok(&["make", "sweep", "helicoid", "--limit", "3", "-o", "out.obj"]);
+    place.ok(&["make", "tensor", "ellipsoid", "--levels", "1", "-o", "out.obj"]);
+    place.write("vase.csv", "1,0\n2,1\n1,2\n1.5,3\n2,4\n");
+    place.ok(&["make", "revolve", "vase.csv", "--segments", "8", "-o", "out.obj"]);
+    assert_eq!(place.json("mesh out.obj")["vertices"], 40);
+    place.write("spine.csv", "0,0,0\n0,0,1\n0,1,2\n1,1,3\n");
+    place.ok(&[
+        "make",
+        "sweep",
+        "vase.csv",
+        "spine.csv",
+        "--levels",
+        "1",
+        "-o",
+        "out.obj",
+    ]);
+    let rows: String = (0..16)
+        .map(|k| format!("{},{},{},{},0\n", k / 4, k % 4, k / 4, k % 4))
+        .collect();
+    place.write("grid.csv", &format!("i,j,x,y,z\n{rows}"));
+    place.ok(&["make", "tensor", "grid.csv", "-o", "out.obj"]);
+    std::fs::remove_file(place.path().join("out.obj")).unwrap();
+    for (line, needle) in [
+        ("make revolve sphre -o out.obj", "sphere, torus-exact"),
+        ("make revolve sphere --segments 2 -o out.obj", "accepted"),
+        ("make revolve catenoid --order 3 -o out.obj", "4 to 32"),
+        ("make revolve sphere --u0 2 -o out.obj", "profile of your own"),
+        ("make revolve vase.csv --order 6 -o out.obj", "control points"),
+        ("make revolve sphere --levels 40 -o out.obj", "points in all"),
+        ("make sweep vase.csv -o out.obj", "spine"),
+        ("make tensor vase.csv -o out.obj", "i, j, x, y, z"),
+        ("make star --noise nan -o out.obj", "noise"),
+        ("make cube --rings 3 -o out.obj", "--rings"),
+        ("make cube", "--out"),
+    ] {
+        let arguments: Vec<&str> = line.split_whitespace().collect();
+        let run = place.run(&arguments);
+        assert_eq!(run.code, Some(2), "{line}: {}", run.stderr);
+        assert!(run.stderr.contains(needle), "{line}: {}", run.stderr);
+        assert!(!place.path().join("out.obj").exists(), "{line}");
+    }
+    // noise is the same for the same seed, and other for another
+    let made = |seed: &str| {
+        place.ok(&[
+            "make", "star", "-n", "7", "--kind", "saddle", "--noise", "0.1", "--seed", seed, "-o", "s.obj",
+        ]);
+        std::fs::read_to_string(place.path().join("s.obj")).unwrap()
+    };
+    assert!(made("3") == made("3") && made("3") != made("4"));
+}

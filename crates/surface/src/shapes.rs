@@ -87,8 +87,38 @@ pub fn torus(around: usize, across: usize) -> Mesh {
     mesh(points.collect(), faces.collect::<Vec<_>>())
 }
 
-/// A disc of `rings` rings of quads around a vertex of valence `n`, curved like a bowl.
-pub fn star(n: usize, rings: usize) -> Mesh {
+/// How a star is curved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StarKind {
+    /// Like a bowl, `z = r^2 / (4 rings)`.
+    Convex,
+    /// Like a saddle, `z = (x^2 - y^2) / (4 rings)`.
+    Saddle,
+    /// In a plane.
+    Flat,
+}
+
+/// Moves each coordinate of each point by at most `size`, the same for the same `seed`: the generator
+/// SplitMix64 (Steele, Lea and Flood 2014).
+pub fn disturbed(mut mesh: Mesh, size: f64, seed: u64) -> Mesh {
+    let mut state = seed;
+    let mut next = || {
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    };
+    for point in mesh.points_mut() {
+        for k in 0..3 {
+            point[k] += size * next();
+        }
+    }
+    mesh
+}
+
+/// A disc of `rings` rings of quads around a vertex of valence `n`.
+pub fn star(n: usize, rings: usize, kind: StarKind) -> Mesh {
     let mut points = vec![Point3::origin()];
     let mut numbers = BTreeMap::new();
     for sector in 0..n {
@@ -99,7 +129,12 @@ pub fn star(n: usize, rings: usize) -> Mesh {
         for (a, b) in (1..=rings).flat_map(|a| (0..=rings).map(move |b| (a, b))) {
             let plane = own.coords * a as f64 + next.coords * b as f64;
             numbers.insert((sector, a, b), points.len() as u32);
-            points.push(Point3::new(plane.x, plane.y, plane.norm_squared() / (4 * rings) as f64));
+            let square = match kind {
+                StarKind::Convex => plane.norm_squared(),
+                StarKind::Saddle => plane.x * plane.x - plane.y * plane.y,
+                StarKind::Flat => 0.0,
+            };
+            points.push(Point3::new(plane.x, plane.y, square / (4 * rings) as f64));
         }
     }
     let at = |sector: usize, a: usize, b: usize| match (a, b) {
@@ -283,7 +318,7 @@ mod tests {
         check("propeller", propeller(3), 0, 0);
         check("gear", gear(8), 1, 0);
         for n in [3, 5, 8] {
-            let facts = check("star", star(n, 2), 0, 1);
+            let facts = check("star", star(n, 2, StarKind::Saddle), 0, 1);
             assert_eq!(facts.valences.get(&n).copied().unwrap_or(0), 1);
             check("fan", fan(n), 0, 1);
         }

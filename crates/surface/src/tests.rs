@@ -266,7 +266,7 @@ fn blocks_are_tables_level_by_level() {
 
 #[test]
 fn a_vertex_of_valence_five_thousand_is_nothing_special() {
-    let star = crate::shapes::star(5000, 1);
+    let star = crate::shapes::star(5000, 1, crate::shapes::StarKind::Convex);
     let rules = rules_of("catmull-clark");
     let refined = Refiner::new(&rules).refined(&star, 1).unwrap();
     assert_eq!(refined.face_count(), 4 * 5000);

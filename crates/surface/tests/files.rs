@@ -198,7 +198,7 @@ proptest! {
         changes in prop::collection::vec((0_usize..4000, any::<u8>()), 0..6),
         cut in 0_usize..4000,
     ) {
-        let mesh = shapes::star(5, 1);
+        let mesh = shapes::star(5, 1, shapes::StarKind::Convex);
         let mut bytes = Vec::new();
         let format = match which {
             0 => {

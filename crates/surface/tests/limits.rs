@@ -7,6 +7,7 @@
 use crate::common::{json, own, rules, shared};
 use eigenring_surface::io::Format;
 use eigenring_surface::limit::{Kind, Place, Surface};
+use eigenring_surface::shapes::StarKind;
 use eigenring_surface::{Mesh, Vector3};
 use serde_json::Value;
 use std::path::Path;
@@ -182,7 +183,7 @@ fn stencils_reproduce_points_and_regular_parts_are_splines() {
     let rules = rules("catmull-clark");
     for mesh in [
         eigenring_surface::shapes::propeller(5),
-        eigenring_surface::shapes::star(5, 2),
+        eigenring_surface::shapes::star(5, 2, StarKind::Convex),
     ] {
         let surface = Surface::new(&mesh, &rules).unwrap();
         for place in surface.grid(1).into_iter().step_by(3) {
@@ -231,7 +232,7 @@ fn stencils_reproduce_points_and_regular_parts_are_splines() {
 fn curvature_keeps_its_digits_at_any_depth() {
     let rules = rules("catmull-clark");
     for n in [3, 5, 7] {
-        let mut star = eigenring_surface::shapes::star(n, 3);
+        let mut star = eigenring_surface::shapes::star(n, 3, StarKind::Convex);
         // with a part in the slowest second-order mode, so that rounding does not take its place
         for point in star.points_mut() {
             point.z += 0.3 * point.x * point.x + 0.2 * point.x * point.y;

@@ -49,6 +49,11 @@ pub struct Exact {
 }
 
 impl Exact {
+    /// The functions of its coordinates.
+    pub fn functions(&self) -> &[Function] {
+        &self.functions
+    }
+
     /// The point at a parameter.
     pub fn at(&self, t: f64) -> Vec<f64> {
         self.functions.iter().map(|f| self.space.value(f, t)).collect()

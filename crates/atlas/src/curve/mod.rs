@@ -11,6 +11,7 @@ mod surface;
 
 pub use example::{Exact, Example, MOST};
 pub use points::parse;
+pub(crate) use surface::faces;
 
 use crate::error::Error;
 use crate::table::{Record, Table};

@@ -63,7 +63,7 @@ pub fn points(levels: &[Grid]) -> Table {
 }
 
 /// The faces of a grid as indices of their corners.
-fn faces(grid: &Grid) -> Vec<[usize; 4]> {
+pub(crate) fn faces(grid: &Grid) -> Vec<[usize; 4]> {
     let (rows, columns) = (grid.u().count(), grid.v().count());
     let along = |count: usize, ends: Ends| if ends == Ends::Closed { count } else { count - 1 };
     let index = move |i: usize, j: usize| (i % rows) * columns + j % columns;
