@@ -178,7 +178,8 @@ impl Named {
             Named::Catenoid => r - z.cosh(),
             Named::EllipsoidOfRevolution => r * r / 4.0 + z * z - 1.0,
             Named::Lissajous => (r - 3.0) * (r - 3.0) + z * z - 2.0 * FRAC_1_SQRT_2 * (r - 3.0) * z - 0.5,
-            // of the radius near the top of the arch, of the height near its ends: the others lose digits there
+            // of the radius near the top of the arch, of the height near its ends: the others lose digits
+            // there
             Named::Cycloid if r < 1.0 => {
                 let length = PI - 2.0 * (r / 2.0).sqrt().asin() + (r * (2.0 - r)).sqrt();
                 z.abs() - length

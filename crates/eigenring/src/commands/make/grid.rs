@@ -41,10 +41,10 @@ impl Output {
 /// Turn a profile around the z axis.
 ///
 /// PROFILE is a table of points, a line each: radius and height, or x, y, z. Or one of the names sphere,
-/// torus-exact, cone, cylinder, hyperboloid, catenoid, ellipsoid-of-revolution, lissajous, cycloid, fang-fig1,
-/// whose control points give the surface exactly: radius 1; radii 2 and 1; from the apex to radius 1; radius
-/// 1; r^2 - z^2 = 1; r = cosh z; half axes 2, 2, 1; an inclined ellipse around radius 3; an arch around its
-/// base; the curve of Fang, Ma and Wang's Fig. 1.
+/// torus-exact, cone, cylinder, hyperboloid, catenoid, ellipsoid-of-revolution, lissajous, cycloid,
+/// fang-fig1, whose control points give the surface exactly: radius 1; radii 2 and 1; from the apex to radius
+/// 1; radius 1; r^2 - z^2 = 1; r = cosh z; half axes 2, 2, 1; an inclined ellipse around radius 3; an arch
+/// around its base; the curve of Fang, Ma and Wang's Fig. 1.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  eigenring make revolve sphere --levels 3 -o sphere.obj\n  eigenring make revolve torus-exact --order 4 --around-order 4 -o torus.obj\n  eigenring make revolve vase.csv --order 4 --segments 8 --levels 4 -o vase.ply"

@@ -15,8 +15,8 @@ use std::process::ExitCode;
 
 /// Write a control mesh to begin with.
 ///
-/// Shapes have a file to themselves; revolve, sweep and tensor make meshes of curves and grids, exact spheres,
-/// tori, cones and others among them.
+/// Shapes have a file to themselves; revolve, sweep and tensor make meshes of curves and grids, exact
+/// spheres, tori, cones and others among them.
 #[derive(Args, Debug)]
 #[command(
     args_conflicts_with_subcommands = true,
