@@ -6,18 +6,18 @@
 //! parameter from the middle of the domain, and a = 2 pi t / segments:
 //!
 //! ```text
-//! sphere                    r = cos wx, z = sin wx, from pole to pole              r^2 + z^2 = 1
-//! torus-exact               r = 2 + cos ws, z = sin ws, closed                     (r-2)^2 + z^2 = 1
-//! cone                      r = 1/2 + x/n, z = 1 - 2x/n, n intervals from the apex  r = 1 - z/2
-//! cylinder                  r = 1, z = x                                           r = 1
-//! hyperboloid               r = cosh wx, z = sinh wx                               r^2 - z^2 = 1
-//! catenoid                  r = cosh wx, z = wx                                    r = cosh z
-//! ellipsoid-of-revolution   r = 2 cos wx, z = sin wx                               r^2/4 + z^2 = 1
-//! lissajous                 r = 3 + cos ws, z = sin(ws + pi/4), closed             (r-3)^2 + z^2 - sqrt2 (r-3) z = 1/2
-//! cycloid                   r = 1 + cos wx, z = wx + sin wx, an arch               z = arccos(r-1) + sqrt(r (2-r))
+//! sphere                  r = cos wx, z = sin wx, from pole to pole   r^2 + z^2 = 1
+//! torus-exact             r = 2 + cos ws, z = sin ws, closed   (r-2)^2 + z^2 = 1
+//! cone                    r = 1/2 + x/n, z = 1 - 2x/n, n intervals from the apex  r = 1 - z/2
+//! cylinder                r = 1, z = x   r = 1
+//! hyperboloid             r = cosh wx, z = sinh wx   r^2 - z^2 = 1
+//! catenoid                r = cosh wx, z = wx   r = cosh z
+//! ellipsoid-of-revolution r = 2 cos wx, z = sin wx   r^2/4 + z^2 = 1
+//! lissajous               r = 3 + cos ws, z = sin(ws + pi/4), closed   (r-3)^2 + z^2 - sqrt2 (r-3) z = 1/2
+//! cycloid                 r = 1 + cos wx, z = wx + sin wx, an arch   z = arccos(r-1) + sqrt(r (2-r))
 //! fang-fig1                 the space curve of the paper's Fig. 1, turned
-//! helicoid                  (s cos b, s sin b, b/2), b = w' t, two turns           y cos 2z = x sin 2z
-//! ellipsoid                 (3 cos wx cos a, 2 cos wx sin a, sin wx)               x^2/9 + y^2/4 + z^2 = 1
+//! helicoid                (s cos b, s sin b, b/2), b = w' t, two turns   y cos 2z = x sin 2z
+//! ellipsoid               (3 cos wx cos a, 2 cos wx sin a, sin wx)   x^2/9 + y^2/4 + z^2 = 1
 //! ```
 
 use crate::curve::Example;
