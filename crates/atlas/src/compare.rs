@@ -170,7 +170,7 @@ pub fn compare(schemes: &[SchemeName], valences: &[usize], tuner: &Tuner<'_>) ->
 }
 
 /// What the columns mean.
-const LEGEND: &str = "\
+pub(crate) const LEGEND: &str = "\
 lambda       modulus of the subdominant eigenvalue
 mu/lambda^2  1 for bounded curvature without a flat spot
 K_m, E       reach of the Gauss curvatures to the wrong side of zero; the unweighted objective

@@ -32,7 +32,8 @@
 //! | [`compare`] | schemes side by side over valences |
 //! | [`stencil`], [`tune`] | one member of the lambda-scheme; the best one |
 //! | [`tuning`] | the best values for the parameters of a scheme file |
-//! | [`certificates`], [`report`] | what is certified, checked again, summed up and printed |
+//! | [`certificates`], [`verify`] | what is certified, checked again, summed up and printed |
+//! | [`report`] | one page about a scheme: all of the above that has a meaning for it |
 //! | [`curve`] | curves and surfaces of revolution |
 //! | [`meshes`], [`limits`], [`curvature`] | limit points as tables; mesh files, the rules of a scheme on a mesh, refinement |
 //! | [`render`] | pictures of surfaces |
@@ -80,5 +81,6 @@ pub mod table;
 pub mod tension;
 pub mod tune;
 pub mod tuning;
+pub mod verify;
 
 pub use error::{Accepted, Error, accepted_in};

@@ -319,6 +319,13 @@ impl Analysis {
         table
     }
 
+    /// The limit stencils as people read them: of sector 0 where it stands for all, with the names of the
+    /// points; and why some are not defined.
+    pub fn limit_stencils_for_people(&self) -> (Table, Vec<String>) {
+        let limits = Limits::new(self);
+        (limits.table(), limits.missing())
+    }
+
     /// Everything as a JSON object.
     pub fn json(&self) -> Map<String, Value> {
         let mut object = self.head().json();
@@ -396,8 +403,7 @@ impl Limits {
     }
 
     fn json(&self) -> Value {
-        let errors = [self.position.as_ref().err(), self.tangents.as_ref().err()];
-        let missing: Vec<String> = errors.into_iter().flatten().map(ToString::to_string).collect();
+        let missing = self.missing();
         json!({
             "points": self.all,
             "position": self.position.as_ref().ok(),
@@ -407,13 +413,13 @@ impl Limits {
         })
     }
 
-    fn text(&self) -> String {
-        let mut text = if self.symmetric {
-            "limit stencils (weights in sector 0; tangents dual to the natural configuration with E_0 = (1,0))\n"
-        } else {
-            "limit stencils (weights in all sectors; tangents dual to the eigenvectors of the pair)\n"
-        }
-        .to_owned();
+    /// Why stencils are not defined.
+    fn missing(&self) -> Vec<String> {
+        let errors = [self.position.as_ref().err(), self.tangents.as_ref().err()];
+        errors.into_iter().flatten().map(ToString::to_string).collect()
+    }
+
+    fn table(&self) -> Table {
         let mut table = Table::new(["point", "position", "tangent_x", "tangent_y"]);
         for (name, index) in &self.points {
             table.push(vec![
@@ -423,11 +429,18 @@ impl Limits {
                 self.tangents.as_ref().ok().map(|t| t[1][*index]).into(),
             ]);
         }
-        text.push_str(&table.render(Format::Text));
-        for error in [self.position.as_ref().err(), self.tangents.as_ref().err()]
-            .into_iter()
-            .flatten()
-        {
+        table
+    }
+
+    fn text(&self) -> String {
+        let mut text = if self.symmetric {
+            "limit stencils (weights in sector 0; tangents dual to the natural configuration with E_0 = (1,0))\n"
+        } else {
+            "limit stencils (weights in all sectors; tangents dual to the eigenvectors of the pair)\n"
+        }
+        .to_owned();
+        text.push_str(&self.table().render(Format::Text));
+        for error in self.missing() {
             text.push_str(&format!("not defined: {error}\n"));
         }
         text

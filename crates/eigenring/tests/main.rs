@@ -11,6 +11,7 @@ mod formulas;
 mod on_demand;
 mod own_matrices;
 mod plot;
+mod report;
 mod surfaces;
 mod tables;
 mod tension;

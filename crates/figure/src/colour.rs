@@ -56,7 +56,8 @@ impl Colour {
         (0.2126 * linear(self.0) + 0.7152 * linear(self.1) + 0.0722 * linear(self.2)).powf(1.0 / 2.2)
     }
 
-    pub(crate) fn hex(self) -> String {
+    /// As style sheets and SVG write it: `#rrggbb`, in lower case.
+    pub fn hex(self) -> String {
         format!("#{:02x}{:02x}{:02x}", self.0, self.1, self.2)
     }
 }

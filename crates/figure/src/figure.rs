@@ -142,7 +142,19 @@ impl Figure {
     /// small, too large or empty, [`Error::Character`] for text beyond the font.
     pub fn svg(&self) -> Result<String, Error> {
         let page = self.draw()?;
-        Ok(page.scene.svg(&self.description, &page.font))
+        Ok(page.scene.svg(&self.description, &page.font, ""))
+    }
+
+    /// The figure as SVG within a page of other pictures: all identifiers begin with `prefix`, and dense maps
+    /// are pixels of so many dots per inch, which keeps the page small. Texts and lines stay what they are,
+    /// and so do the colours of text, frames and page (see [`Colour`]), which a style sheet may replace.
+    ///
+    /// # Errors
+    /// Those of [`Figure::svg`], and [`Error::Resolution`].
+    pub fn inline_svg(&self, prefix: &str, dpi: f64) -> Result<String, Error> {
+        let page = self.draw()?;
+        let scene = page.scene.with_pixels(dpi)?;
+        Ok(scene.svg(&self.description, &page.font, prefix))
     }
 
     /// The figure as PNG: the SVG, rasterised at so many dots per inch of the printed size, which the file

@@ -5,7 +5,10 @@
 //! with several pictures) are needed. Numbers have a fixed count of decimals: equal scenes give equal bytes.
 
 use crate::colour::Colour;
+use crate::error::Error;
 use crate::text::{Font, Placed};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -129,6 +132,8 @@ pub(crate) enum Shape {
         fill: Colour,
         stroke: Stroke,
     },
+    /// Pixels, as a PNG file.
+    Image { place: Rect, png: Vec<u8> },
     Text {
         text: Placed,
         colour: Colour,
@@ -228,8 +233,12 @@ fn stroke_attributes(stroke: &Option<Stroke>) -> String {
     text
 }
 
+/// How many cells a run of meshes has at least that is better kept as pixels.
+const DENSE: usize = 600;
+
 impl Scene {
-    pub fn svg(&self, title: &str, font: &Font) -> String {
+    /// `prefix` begins all identifiers, which must be different on a page with several pictures.
+    pub fn svg(&self, title: &str, font: &Font, prefix: &str) -> String {
         let [width, height] = self.size.map(|length| number(length, 3));
         let mut out = String::new();
         // writing to a String cannot fail
@@ -249,7 +258,7 @@ impl Scene {
         for id in used {
             let outline = font.outline(id);
             if !outline.is_empty() {
-                let _ = writeln!(out, "<path id=\"glyph{id}\" d=\"{outline}\"/>");
+                let _ = writeln!(out, "<path id=\"{prefix}glyph{id}\" d=\"{outline}\"/>");
             }
         }
         let _ = writeln!(
@@ -257,15 +266,93 @@ impl Scene {
             "</defs>\n<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>"
         );
         for shape in &self.shapes {
-            shape.svg(&mut out, font);
+            shape.svg(&mut out, font, prefix);
         }
         out.push_str("</svg>\n");
         out
     }
+
+    /// The same with pixels in place of every run of shapes that begins and ends with a mesh, holds nothing
+    /// but meshes and lines, and has many cells: at so many dots per inch, on a transparent ground.
+    ///
+    /// # Errors
+    /// Those of the rasteriser.
+    pub fn with_pixels(self, dpi: f64) -> Result<Scene, Error> {
+        let Scene { size, shapes } = self;
+        let mut found = Vec::new();
+        for run in shapes.chunk_by(|a, b| a.may_be_pixels() == b.may_be_pixels()) {
+            let first = run.iter().position(Shape::is_mesh);
+            let last = run.iter().rposition(Shape::is_mesh);
+            let (Some(first), Some(last)) = (first, last) else {
+                found.extend_from_slice(run);
+                continue;
+            };
+            let dense = &run[first..=last];
+            if dense.iter().map(Shape::cells).sum::<usize>() < DENSE {
+                found.extend_from_slice(run);
+                continue;
+            }
+            found.extend_from_slice(&run[..first]);
+            found.push(Scene::image(dense, dpi)?);
+            found.extend_from_slice(&run[last + 1..]);
+        }
+        Ok(Scene { size, shapes: found })
+    }
+
+    /// Some shapes as pixels of the smallest rectangle that holds them.
+    fn image(shapes: &[Shape], dpi: f64) -> Result<Shape, Error> {
+        let points = || shapes.iter().flat_map(Shape::points);
+        let range = |axis: usize| {
+            let values = points().map(|point| point[axis]);
+            // lines reach beyond their points by half their width
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+                (low.min(value - 0.5), high.max(value + 0.5))
+            })
+        };
+        let [(left, right), (top, bottom)] = [range(0), range(1)];
+        let place = Rect::new(left, top, right, bottom);
+        let mut inner = String::new();
+        for shape in shapes {
+            shape.svg(&mut inner, &Font::new(), "");
+        }
+        let [x, y, width, height] = [left, top, place.width(), place.height()].map(|length| number(length, 3));
+        let svg = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" viewBox=\"{x} {y} {width} \
+             {height}\" stroke-linejoin=\"round\">\n{inner}</svg>"
+        );
+        let png = crate::raster::png_on(&svg, dpi, None)?;
+        Ok(Shape::Image { place, png })
+    }
 }
 
 impl Shape {
-    fn svg(&self, out: &mut String, font: &Font) {
+    fn is_mesh(&self) -> bool {
+        matches!(self, Shape::Mesh { .. })
+    }
+
+    fn may_be_pixels(&self) -> bool {
+        matches!(self, Shape::Mesh { .. } | Shape::Path { .. })
+    }
+
+    fn cells(&self) -> usize {
+        match self {
+            Shape::Mesh { cells } => cells.len(),
+            _ => 0,
+        }
+    }
+
+    /// The corners of cells and lines.
+    fn points(&self) -> Vec<[f64; 2]> {
+        match self {
+            Shape::Mesh { cells } => cells.iter().flat_map(|(_, corners)| corners.iter().copied()).collect(),
+            Shape::Path { lines, .. } => lines.concat(),
+            _ => Vec::new(),
+        }
+    }
+}
+
+impl Shape {
+    fn svg(&self, out: &mut String, font: &Font, prefix: &str) {
         // writing to a String cannot fail
         let _ = match self {
             Shape::Path {
@@ -307,6 +394,15 @@ impl Shape {
                 fill.hex(),
                 stroke_attributes(&Some(*stroke))
             ),
+            Shape::Image { place, png } => writeln!(
+                out,
+                "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" href=\"data:image/png;base64,{}\"/>",
+                number(place.left, 3),
+                number(place.top, 3),
+                number(place.width(), 3),
+                number(place.height(), 3),
+                STANDARD.encode(png)
+            ),
             Shape::Text { text, colour, source } => {
                 let _ = writeln!(
                     out,
@@ -329,7 +425,7 @@ impl Shape {
                     let matrix: Vec<String> = matrix.iter().map(|&m| number(m, 7)).collect();
                     let _ = writeln!(
                         out,
-                        "<use xlink:href=\"#glyph{}\" transform=\"matrix({} {} {})\"/>",
+                        "<use xlink:href=\"#{prefix}glyph{}\" transform=\"matrix({} {} {})\"/>",
                         glyph.id,
                         matrix.join(" "),
                         number(at[0], 3),

@@ -1,5 +1,6 @@
 //! Tables of numbers and words, in the formats that people and programs read.
 
+mod html;
 mod latex;
 mod text;
 
@@ -65,9 +66,12 @@ impl<T: Into<Cell>> From<Option<T>> for Cell {
     }
 }
 
+/// Significant digits of numbers for people.
+const DIGITS: usize = 10;
+
 /// Ten significant digits without trailing zeros; exponents only where they are shorter.
 pub fn short(number: f64) -> String {
-    rounded(number, 10)
+    rounded(number, DIGITS)
 }
 
 /// So many significant digits without trailing zeros.

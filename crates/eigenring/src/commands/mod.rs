@@ -14,6 +14,7 @@ mod new_scheme;
 mod objective;
 mod plot;
 mod render;
+mod report;
 mod reproduce;
 mod spectrum;
 mod stencil;
@@ -71,6 +72,7 @@ enum Command {
     Curvature(curvature::Arguments),
     Render(render::Arguments),
     Plot(plot::Arguments),
+    Report(report::Arguments),
     Reproduce(reproduce::Arguments),
     NewScheme(new_scheme::Arguments),
     Completions(completions::Arguments),
@@ -99,6 +101,7 @@ impl Cli {
             Command::Curvature(arguments) => arguments.run(),
             Command::Render(arguments) => arguments.run(),
             Command::Plot(arguments) => arguments.run(),
+            Command::Report(arguments) => arguments.run(),
             Command::Reproduce(arguments) => arguments.run(),
             Command::NewScheme(arguments) => arguments.run(),
             Command::Completions(arguments) => arguments.run(),

@@ -98,11 +98,13 @@ mod parameters;
 mod rules;
 mod starters;
 mod tuned;
+mod typeset;
 mod valence_rules;
 
 pub use balance::Balance;
 pub use parameters::Parameter;
 pub use starters::{Starter, starters};
+pub use typeset::{Typeset, TypesetForm, TypesetPass, TypesetRule, TypesetSectors, TypesetStencil, TypesetTerm};
 
 use crate::{Error, Exact, Lattice, Number, Scalar, Scheme, Site};
 use file::{Contents, MAX_VALENCE, SchemeText, file_error};

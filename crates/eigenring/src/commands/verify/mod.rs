@@ -13,8 +13,8 @@ use crate::valences::{self, MAX_VALENCE, Valences};
 use clap::{ArgGroup, Args, ValueEnum};
 use eigenring_atlas::certificates::{beside, confirm, curve, ranged};
 use eigenring_atlas::progress::each;
-use eigenring_atlas::report;
 use eigenring_atlas::schemes::SchemeName;
+use eigenring_atlas::verify;
 use eigenring_certify::parameter::{self, ParameterCertificate};
 use eigenring_certify::range::{Limits, RangeCertificate, prove_range};
 use eigenring_certify::{Requirement, Status, certify};
@@ -215,7 +215,7 @@ impl Arguments {
             (certificate.valence, certificate.to_json())
         })?;
         let requirement = self.require.into();
-        let text = report::certificates(&certificates, requirement, self.format.format());
+        let text = verify::certificates(&certificates, requirement, self.format.format());
         files::emit(None, text.as_bytes())?;
         let balanced: Vec<_> = certificates
             .iter()
@@ -259,7 +259,7 @@ impl Arguments {
         self.store(&certificates, |certificate| {
             (certificate.valence, certificate.to_line())
         })?;
-        let text = report::parameters(&certificates, requirement, self.format.format());
+        let text = verify::parameters(&certificates, requirement, self.format.format());
         files::emit(None, text.as_bytes())?;
         let proven = |certificate: &ParameterCertificate| {
             let required = certificate.required(requirement);
@@ -283,7 +283,7 @@ impl Arguments {
         self.store(&certificates, |certificate| {
             (certificate.valence, certificate.to_json())
         })?;
-        let text = report::ranges(&certificates, requirement, self.format.format());
+        let text = verify::ranges(&certificates, requirement, self.format.format());
         files::emit(None, text.as_bytes())?;
         let proven = |certificate: &RangeCertificate| {
             let required = certificate.required(requirement);
@@ -328,7 +328,7 @@ impl Arguments {
             return Err(error.in_file(path).into());
         }
         let rows = each(&Terminal, "certificates", &paths, |path| confirm(path, MAX_VALENCE))?;
-        files::emit(None, report::rechecks(&rows, self.format.format()).as_bytes())?;
+        files::emit(None, verify::rechecks(&rows, self.format.format()).as_bytes())?;
         Ok(exit(rows.iter().all(|row| row.confirmed)))
     }
 }

@@ -17,10 +17,12 @@
 //! parameters, and other weights. `sum(k, x)` adds x for k = 0 to n - 1, `sum(k, a, b, x)` for k = a to b.
 
 pub(super) mod evaluate;
+mod mathml;
 mod parse;
 pub(super) mod residual;
 
 pub(super) use evaluate::Context;
+pub(super) use mathml::{Typesetter, identifier};
 pub(super) use parse::parse;
 pub(super) use residual::{Bindings, Residual, sum_degrees};
 

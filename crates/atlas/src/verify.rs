@@ -88,7 +88,7 @@ fn certificate_json(certificate: &Certificate, requirement: Requirement) -> Valu
     })
 }
 
-fn certificate_table(certificate: &Certificate) -> Table {
+pub(crate) fn certificate_table(certificate: &Certificate) -> Table {
     let mut table = Table::new(["check", "status", "margin", "value", "remark"]);
     for check in &certificate.checks {
         let remark = check.witness.as_ref().map(|witness| witness.text.clone());
