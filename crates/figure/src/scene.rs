@@ -272,8 +272,8 @@ impl Scene {
         out
     }
 
-    /// The same with pixels in place of every run of shapes that begins and ends with a mesh, holds nothing
-    /// but meshes and lines, and has many cells: at so many dots per inch, on a transparent ground.
+    /// The same with pixels in place of every run of meshes of many cells, with the lines between them and
+    /// those upon them that follow: at so many dots per inch, on a transparent ground.
     ///
     /// # Errors
     /// Those of the rasteriser.
@@ -287,35 +287,29 @@ impl Scene {
                 found.extend_from_slice(run);
                 continue;
             };
+            let place = within(&run[first..=last], size);
+            let upon = run[last + 1..].iter().take_while(|shape| shape.is_line_in(&place));
+            let last = last + upon.count();
             let dense = &run[first..=last];
             if dense.iter().map(Shape::cells).sum::<usize>() < DENSE {
                 found.extend_from_slice(run);
                 continue;
             }
             found.extend_from_slice(&run[..first]);
-            found.push(Scene::image(dense, dpi)?);
+            found.push(Scene::image(dense, place, dpi)?);
             found.extend_from_slice(&run[last + 1..]);
         }
         Ok(Scene { size, shapes: found })
     }
 
-    /// Some shapes as pixels of the smallest rectangle that holds them.
-    fn image(shapes: &[Shape], dpi: f64) -> Result<Shape, Error> {
-        let points = || shapes.iter().flat_map(Shape::points);
-        let range = |axis: usize| {
-            let values = points().map(|point| point[axis]);
-            // lines reach beyond their points by half their width
-            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-                (low.min(value - 0.5), high.max(value + 0.5))
-            })
-        };
-        let [(left, right), (top, bottom)] = [range(0), range(1)];
-        let place = Rect::new(left, top, right, bottom);
+    /// Some shapes as the pixels of a place on the page.
+    fn image(shapes: &[Shape], place: Rect, dpi: f64) -> Result<Shape, Error> {
         let mut inner = String::new();
         for shape in shapes {
             shape.svg(&mut inner, &Font::new(), "");
         }
-        let [x, y, width, height] = [left, top, place.width(), place.height()].map(|length| number(length, 3));
+        let [x, y, width, height] =
+            [place.left, place.top, place.width(), place.height()].map(|length| number(length, 3));
         let svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" viewBox=\"{x} {y} {width} \
              {height}\" stroke-linejoin=\"round\">\n{inner}</svg>"
@@ -325,7 +319,29 @@ impl Scene {
     }
 }
 
+/// The smallest rectangle on a page that holds the cells and lines of some shapes.
+fn within(shapes: &[Shape], page: [f64; 2]) -> Rect {
+    let range = |axis: usize| {
+        let values = shapes.iter().flat_map(Shape::points).map(|point| point[axis]);
+        // lines reach beyond their points by half their width
+        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+            (low.min(value - 0.5), high.max(value + 0.5))
+        });
+        // a surface may grow beyond the page, and nothing of it is seen there
+        let low = low.clamp(0.0, page[axis] - 1.0);
+        (low, high.clamp(low + 1.0, page[axis]))
+    };
+    let [(left, right), (top, bottom)] = [range(0), range(1)];
+    Rect::new(left, top, right, bottom)
+}
+
 impl Shape {
+    /// Whether it is nothing but strokes within a place.
+    fn is_line_in(&self, place: &Rect) -> bool {
+        let inside = |[x, y]: [f64; 2]| place.contains(&Rect::new(x, y, x, y), 0.0);
+        matches!(self, Shape::Path { fill: None, .. }) && self.points().into_iter().all(inside)
+    }
+
     fn is_mesh(&self) -> bool {
         matches!(self, Shape::Mesh { .. })
     }

@@ -51,6 +51,8 @@ const RADIUS: f64 = 20.0;
 const OUTLINED: usize = 4;
 /// The lowest figure, in millimetres: the label of the colour bar fits beside it.
 const LOWEST: f64 = 66.0;
+/// The height of the line above all panels, in millimetres.
+const HEADING: f64 = 5.0;
 /// Cells of a figure, about: larger files show nothing new at the printed size.
 const CELLS: f64 = 20_500.0;
 /// Steps of the tables along the edge of a patch.
@@ -79,7 +81,11 @@ fn draw(valence: usize, inputs: &Inputs<'_>) -> Result<Drawing, Error> {
         false => "$K^*$ / mean |$K^*$|",
     };
     let scale = ColourScale::new(ColourMap::Diverging, inputs.colours.unwrap_or_default(), label);
-    let title = |subject: &Subject, which: usize| format!("{}: {}", subject.full_title(), MAPS[which]);
+    let title = |subject: &Subject, which: usize| match subjects.len() {
+        // one scheme is named above all panels
+        1 => MAPS[which].to_owned(),
+        _ => format!("{}: {}", subject.full_title(), MAPS[which]),
+    };
     let narrowest = narrowest(subjects.iter().map(|subject| title(subject, 1)), NARROWEST);
     let abreast = Grid::new(subjects.len(), 3, inputs.width, BAR, narrowest);
     // where three maps do not fit side by side, schemes stand in the columns
@@ -87,9 +93,16 @@ fn draw(valence: usize, inputs: &Inputs<'_>) -> Result<Drawing, Error> {
         true => (Grid::new(3, subjects.len(), inputs.width, BAR, narrowest), true),
         false => (abreast, false),
     };
-    let height = grid.height(ASPECT * grid.across).max(LOWEST);
+    let mut height = grid.height(ASPECT * grid.across).max(LOWEST);
+    let alone = subjects.first().filter(|_| subjects.len() == 1);
+    if alone.is_some() {
+        height += HEADING;
+    }
     let description = format!("Second-order maps of valence {valence}");
     let mut figure = Figure::new(inputs.width, height, description).colour_bar(&scale);
+    if let Some(subject) = alone {
+        figure = figure.heading(subject.full_title());
+    }
     let mut table = points::table(&["scheme", "valence", "lambda", "map", "mu"], &["z", "gauss"]);
     for (row, (subject, sheets)) in subjects.iter().zip(&maps).enumerate() {
         for (which, sheet) in sheets.iter().enumerate() {

@@ -6,13 +6,11 @@ use super::frame::Section;
 use crate::error::Error;
 use crate::figures::{Drawing, FigureEntry, Inputs, Studies, find};
 use crate::progress::{Silent, each};
+use crate::spectrum::Analysis;
 use maud::{Markup, PreEscaped, html};
 
 /// Dots per inch of dense maps, at the printed size: three for two of a usual screen's.
 const DPI: f64 = 150.0;
-
-/// Valences beside each other in a picture of maps: with more, each gets too few cells.
-const ABREAST: usize = 4;
 
 /// The drawings of some valences, or why there are none.
 fn draw(entry: &FigureEntry, topic: &Topic, valences: &[usize]) -> Result<Vec<Drawing>, Error> {
@@ -60,7 +58,14 @@ fn shown(entry: &FigureEntry, topic: &Topic, valences: &[usize]) -> Markup {
     };
     html! {
         @for drawing in &drawings { (figure(entry, drawing, &drawn)) }
-        @for (valences, reason) in by_reason(&missing) {
+        (not_drawn(&missing))
+    }
+}
+
+/// Why there are no pictures.
+fn not_drawn(missing: &[(usize, String)]) -> Markup {
+    html! {
+        @for (valences, reason) in by_reason(missing) {
             p.note { "No picture at N = " (command::ranges(&valences)) ": " (reason) "." }
         }
     }
@@ -92,54 +97,73 @@ fn figure(entry: &FigureEntry, drawing: &Drawing, valences: &[usize]) -> Markup 
     }
 }
 
+/// A section of pictures.
+struct MapKind {
+    id: &'static str,
+    title: &'static str,
+    figure: &'static str,
+    text: &'static str,
+    /// Valences in a picture; all of them if not given.
+    abreast: Option<usize>,
+}
+
+const KINDS: [MapKind; 3] = [
+    MapKind {
+        id: "natural",
+        title: "Natural configurations",
+        figure: "natural-configurations",
+        text: "Control nets of the characteristic maps: refined, each is itself times λ.",
+        abreast: None,
+    },
+    MapKind {
+        id: "characteristic",
+        title: "Characteristic maps",
+        figure: "characteristic-map",
+        text: "Patches of the characteristic maps, coloured by the Jacobian: a scheme is C1 at the centre if the map is \
+               regular and injective (Reif 1995).",
+        // with more, each gets too few cells
+        abreast: Some(4),
+    },
+    MapKind {
+        id: "second-order",
+        title: "Second-order maps",
+        figure: "second-order-maps",
+        text: "Cup and saddles over the characteristic map, coloured by the Gauss curvature K*, which is constant where they \
+               are quadratics, as continuous curvature needs; where its sign is wrong the region is outlined.",
+        abreast: Some(1),
+    },
+];
+
 /// The sections on natural configurations, characteristic and second-order maps.
-pub(super) fn sections(topic: &Topic) -> Result<Vec<Section>, Error> {
-    let kinds = [
-        (
-            "natural",
-            "Natural configurations",
-            "natural-configurations",
-            "Control nets of the characteristic maps: refined, each is itself times λ.",
-            topic.valences.len(),
-        ),
-        (
-            "characteristic",
-            "Characteristic maps",
-            "characteristic-map",
-            "Patches of the characteristic maps, coloured by the Jacobian: a scheme is C1 at the centre if the map is regular \
-             and injective (Reif 1995).",
-            ABREAST,
-        ),
-        (
-            "second-order",
-            "Second-order maps",
-            "second-order-maps",
-            "Cup and saddles over the characteristic map, coloured by the Gauss curvature K*, which is constant where they are \
-             quadratics, as continuous curvature needs; where its sign is wrong the region is outlined.",
-            1,
-        ),
-    ];
-    let mut pieces: Vec<(usize, &str, &[usize])> = Vec::new();
-    for (which, (_, _, figure, _, abreast)) in kinds.iter().enumerate() {
-        pieces.extend(
-            topic
-                .valences
-                .chunks((*abreast).max(1))
-                .map(|chunk| (which, *figure, chunk)),
-        );
-    }
-    let drawn = each(topic.tuner.progress, "pictures", &pieces, |(which, figure, chunk)| {
-        Ok::<_, Error>((*which, picture(figure, topic, chunk)))
+pub(super) fn sections(topic: &Topic, analyses: &[Analysis]) -> Result<Vec<Section>, Error> {
+    // where another block than 1 leads, there is no characteristic map, and what a figure could draw is none
+    let each_of = topic.valences.iter().copied().zip(analyses);
+    let strays = each_of.filter_map(|(valence, Analysis { spectrum, .. })| {
+        let (fourier, lambda) = spectrum.stray().zip(spectrum.subdominant())?;
+        let value = lambda.modulus();
+        let reason = eigenring_spectral::Error::Stray { value, fourier };
+        Some((valence, reason.to_string()))
+    });
+    let strays: Vec<(usize, String)> = strays.collect();
+    let is_drawn = |valence: &usize| strays.iter().all(|(stray, _)| stray != valence);
+    let drawn_at: Vec<usize> = topic.valences.iter().copied().filter(is_drawn).collect();
+    let pieces = KINDS.iter().flat_map(|kind| {
+        let abreast = kind.abreast.unwrap_or(drawn_at.len()).max(1);
+        drawn_at.chunks(abreast).map(move |chunk| (kind.figure, chunk))
+    });
+    let pieces: Vec<(&str, &[usize])> = pieces.collect();
+    let drawn = each(topic.tuner.progress, "pictures", &pieces, |(figure, chunk)| {
+        Ok::<_, Error>((*figure, picture(figure, topic, chunk)))
     })?;
-    let section =
-        |(which, (id, title, figure, text, _)): (usize, &(&'static str, &'static str, &str, &str, usize))| Section {
-            id,
-            title,
-            body: html! {
-                p { (text) }
-                @for (_, markup) in drawn.iter().filter(|(of, _)| *of == which) { (markup) }
-            },
-            commands: vec![command::plot(figure, topic, topic.valences)],
-        };
-    Ok(kinds.iter().enumerate().map(section).collect())
+    let section = |kind: &MapKind| Section {
+        id: kind.id,
+        title: kind.title,
+        body: html! {
+            p { (kind.text) }
+            (not_drawn(&strays))
+            @for (_, markup) in drawn.iter().filter(|(figure, _)| *figure == kind.figure) { (markup) }
+        },
+        commands: vec![command::plot(kind.figure, topic, topic.valences)],
+    };
+    Ok(KINDS.iter().map(section).collect())
 }

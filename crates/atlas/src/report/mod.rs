@@ -66,7 +66,7 @@ pub fn page(name: &SchemeName, valences: &[usize], tuner: &Tuner<'_>) -> Result<
         spectra::eigenvalues(&topic, &analyses),
         spectra::limit_stencils(&topic, &analyses),
     ];
-    sections.extend(maps::sections(&topic)?);
+    sections.extend(maps::sections(&topic, &analyses)?);
     sections.push(comparison(&topic)?);
     let lead = html! {
         p { (kind(&topic)) }
@@ -155,6 +155,7 @@ fn greek(text: &str) -> String {
     let words = [
         ("mu/lambda^2", "μ/λ²"),
         ("|mu|/lambda", "|μ|/λ"),
+        ("lambda^2", "λ²"),
         ("lambda", "λ"),
         ("theta", "θ"),
     ];

@@ -39,7 +39,7 @@ const TENSION: &str = "<msup><mi>u</mi><mo>′</mo></msup><mo>=</mo><msqrt><mfra
                        <mn>2</mn></mfrac></msqrt>";
 
 fn inline(formula: &str) -> Markup {
-    html! { math { (PreEscaped(formula.to_owned())) } }
+    html! { math displaystyle="true" { (PreEscaped(formula.to_owned())) } }
 }
 
 fn block(formula: &str) -> Markup {

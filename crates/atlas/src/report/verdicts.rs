@@ -2,7 +2,7 @@
 
 use super::command;
 use super::frame::{Section, valence_heading};
-use super::{Topic, legend};
+use super::{Topic, greek, legend};
 use crate::certificates::input;
 use crate::error::Error;
 use crate::progress::each;
@@ -143,10 +143,10 @@ fn sentence(check: &Check) -> String {
         }
     }
     if let Some(witness) = &check.witness {
-        text.push_str(&format!(". Witness: {}", witness.text));
+        text.push_str(&format!(". Witness: {}", greek(&witness.text)));
     }
     if let Some(reached) = &check.reached {
-        text.push_str(&format!(". {}", capital(reached)));
+        text.push_str(&format!(". {}", capital(&greek(reached))));
     }
     text + "."
 }
@@ -232,7 +232,7 @@ mod tests {
             "Refuted: it is false that the characteristic map is injective. Witness: the outer boundary winds 2 times round the centre."
         );
         // the margin of what does not hold is none
-        let open = Check::undecided(Statement::Strict, "a tie with mu").enclosing(Interval::new(0.9, 1.1));
+        let open = Check::undecided(Statement::Strict, "a tie with mu").enclosing(Interval::new(0.9, 1.1).unwrap());
         assert_eq!(
             sentence(&open),
             "Undecided whether all eigenvalues after those of the quadratic terms are smaller; ratio: 0.9 to 1.1. A tie with mu."
