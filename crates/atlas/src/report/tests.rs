@@ -1,5 +1,5 @@
-//! **Claim**: a page is well-formed and accessible, names nothing outside of itself, and says what is known of
-//! the scheme. **Oracle**: a reader of tags written here; what is proven in the literature.
+//! **Claim**: a page is well-formed and accessible, names nothing outside of itself, and says what is known
+//! of the scheme. **Oracle**: a reader of tags written here; what is proven in the literature.
 
 use super::*;
 use std::collections::BTreeSet;
