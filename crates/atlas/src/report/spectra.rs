@@ -16,11 +16,9 @@ const LONGEST: usize = 120_000;
 /// What `eigenring spectrum` prints, at each valence.
 pub(super) fn analyses(topic: &Topic) -> Result<Vec<Analysis>, Error> {
     let centre = topic.name.centre()?;
-    let subjects: Vec<_> = topic.each().collect();
-    each(topic.tuner.progress, "spectra", &subjects, |(valence, scheme)| {
-        let corner = Corner::closed(centre, *valence)?;
-        let extended = topic.name.extended(&corner)?;
-        Analysis::of_corner(scheme, extended.as_ref(), &corner, None, None)
+    each(topic.tuner.progress, "spectra", topic.valences, |&valence| {
+        let corner = Corner::closed(centre, valence)?;
+        Analysis::of_name(topic.name, &corner, [None; 2], topic.tuner)
     })
 }
 
