@@ -160,7 +160,7 @@ fn typeset(file: &UserScheme, valences: &[usize]) -> Markup {
     let holds = |rule: &&TypesetRule| {
         let within = |n: &usize| (rule.first..=rule.last.unwrap_or(usize::MAX)).contains(n);
         let single = rule.last == Some(rule.first);
-        valences.iter().filter(|n| single || !listed(**n)).any(|n| within(n))
+        valences.iter().filter(|n| single || !listed(**n)).any(within)
     };
     let rules: Vec<&TypesetRule> = set.rules.iter().filter(holds).collect();
     let spoken: Vec<usize> = valences
