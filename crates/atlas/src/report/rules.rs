@@ -68,7 +68,7 @@ pub(super) fn section(topic: &Topic) -> Result<Section, Error> {
         (origin(topic))
         @match &formulas {
             Some(file) => {
-                @if values { (parameters(file.parameters())) }
+                @if values { (parameters(file.parameters(), topic.valences)) }
                 (typeset(file, topic.valences))
             },
             None => p.note { "No formulas are written down for this member of the family: its weights are those below." },
@@ -135,7 +135,7 @@ fn like(spec: &Spec) -> Result<Option<UserScheme>, Error> {
     }))
 }
 
-fn parameters(parameters: &[Parameter]) -> Markup {
+fn parameters(parameters: &[Parameter], valences: &[usize]) -> Markup {
     if parameters.is_empty() {
         return html! {};
     }
@@ -144,13 +144,29 @@ fn parameters(parameters: &[Parameter]) -> Markup {
         let range = known.range.as_ref().map(|[least, most]| format!("{least} to {most}"));
         table.push(vec![
             known.name.as_str().into(),
-            known.value.to_string().into(),
+            value(known, valences).into(),
             known.default.to_string().into(),
             range.into(),
             known.doc.as_str().into(),
         ]);
     }
     table.html("Parameters and the values that they have on this page")
+}
+
+/// The value of a parameter at these valences: one, or each where they differ.
+fn value(known: &Parameter, valences: &[usize]) -> String {
+    let runs = valences.chunk_by(|a, b| known.at(*a) == known.at(*b));
+    let runs: Vec<&[usize]> = runs.collect();
+    match runs.as_slice() {
+        [] => known.default.to_string(),
+        [one] => known.at(one[0]).to_string(),
+        several => {
+            let texts = several
+                .iter()
+                .map(|run| format!("{} at N = {}", known.at(run[0]), command::ranges(run)));
+            texts.collect::<Vec<_>>().join("; ")
+        }
+    }
 }
 
 /// Formulas of the rules that hold at these valences.
