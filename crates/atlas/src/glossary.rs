@@ -59,8 +59,8 @@ pub const ENTRIES: &[Entry] = &[
         meaning: "the objective: over the disc of the characteristic map, the mean of the squared distance of \
          the second derivatives from the best constants, summed over the three second-order maps of \
          unit 5-ring norm (Ma, Wang and Ma 2023, Eqs. 11 to 20). **Unweighted** in `compare`; `total` \
-         of `tune`, `objective` and `results/lambda` is **weighted** where the Gauss curvature has \
-         the wrong sign, unless `--unweighted` is given",
+         of `tune`, `objective` and `results/lambda`, and `E` of `tune --minimise`, is **weighted** \
+         where the Gauss curvature has the wrong sign, unless `--unweighted` is given",
         place: "`compare`, `tune`, `objective`",
     },
     Entry {
@@ -68,6 +68,12 @@ pub const ENTRIES: &[Entry] = &[
         meaning: "how far the Gauss curvature of the second-order maps reaches to the wrong side of zero, over \
          the same annulus",
         place: "`compare`",
+    },
+    Entry {
+        word: "polar",
+        meaning: "the variance of the lengths of the edges of the natural configuration within two rings of a \
+         vertex (the face and one ring around a face), their mean being 1: 0 for the regular net",
+        place: "objective of `tune`",
     },
     Entry {
         word: "theta",

@@ -204,7 +204,7 @@ fn grids_become_meshes() {
     let rows: String = (0..16)
         .map(|k| format!("{},{},{},{},0\n", k / 4, k % 4, k / 4, k % 4))
         .collect();
-    place.write("grid.csv", &format!("i,j,x,y,z\n{rows}"));
+    place.write("grid.csv", format!("i,j,x,y,z\n{rows}"));
     place.ok(&["make", "tensor", "grid.csv", "-o", "out.obj"]);
     std::fs::remove_file(place.path().join("out.obj")).unwrap();
     for (line, needle) in [

@@ -160,7 +160,7 @@ mod tests {
         let near = |a: f64, b: f64| (a - b).abs() < 1e-3;
         let scale = 72.0 / 25.4;
         assert!(
-            near(matrix[0], scale) && near(matrix[3], -scale) && near(matrix[5], 108.0),
+            near(matrix[0], scale / 2.0) && near(matrix[3], -scale / 2.0) && near(matrix[5], 108.0),
             "{drawn}"
         );
         assert!(

@@ -275,7 +275,7 @@ impl Spectrum {
     /// `None` where it would mean nothing: as [`Spectrum::sixth`], or the next is not below mu.
     pub fn strictness(&self, valence: usize, beyond: f64) -> Option<f64> {
         let sixth = self.sixth(valence, beyond)?;
-        (sixth < 1.0 - SAME).then(|| 1.0 - sixth)
+        (sixth < 1.0 - SAME).then_some(1.0 - sixth)
     }
 
     /// `|next| / mu`, for mu and next as in [`Spectrum::strictness`]: the modulus of the sixth eigenvalue
