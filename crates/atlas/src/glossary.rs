@@ -73,7 +73,7 @@ pub const ENTRIES: &[Entry] = &[
         word: "polar",
         meaning: "the variance of the lengths of the edges of the natural configuration within two rings of a \
          vertex (the face and one ring around a face), their mean being 1: 0 for the regular net",
-        place: "objective of `tune`",
+        place: "`tune`",
     },
     Entry {
         word: "theta",
