@@ -9,8 +9,8 @@ use crate::error::{Accepted, Error};
 use crate::matrix::npy;
 use crate::spectrum::Analysis;
 use crate::table::{Cell, Table};
-use eigenring_scheme::{Complex, Site};
-use eigenring_spectral::{Eigenvalue, Matrix, Mode};
+use eigenring_scheme::{Complex, Scheme, Site};
+use eigenring_spectral::{Chain, Eigenvalue, Extended, Matrix, Mode};
 use serde_json::{Value, json};
 
 /// Entries of `L^T R - I`, relative to the lengths of the vectors, beyond which they are refused: a missing
@@ -25,6 +25,8 @@ pub struct Vectors {
     /// The Fourier index, below N; k <= N/2 for the real and imaginary parts that k and N-k share. `None`
     /// without blocks.
     pub fourier: Option<usize>,
+    /// The place in its Jordan chain, 1 for an eigenvector.
+    pub place: usize,
     /// Values at the points.
     pub right: Vec<Complex<f64>>,
     /// Weights of the points.
@@ -37,52 +39,175 @@ pub struct Eigenvectors<'a> {
     analysis: &'a Analysis,
     /// As many as there are points.
     pub vectors: Vec<Vectors>,
+    /// The places of the vectors of each Jordan chain that is longer than one, the eigenvector first.
+    pub chains: Vec<Vec<usize>>,
+}
+
+/// The chains of a system that no eigenvalue of the spectrum has claimed yet.
+struct Open {
+    valence: usize,
+    chains: Vec<Chain>,
+    /// Of each chain, whether it was taken for its own block and for the conjugate one.
+    taken: Vec<[bool; 2]>,
+}
+
+impl Open {
+    fn new(chains: Vec<Chain>, valence: usize) -> Self {
+        let taken = vec![[false; 2]; chains.len()];
+        Open { valence, chains, taken }
+    }
+
+    /// The chain of an eigenvalue, the nearest that is left in its block; block N-k has the conjugates of
+    /// block k.
+    fn next(&mut self, e: &Eigenvalue) -> Option<Chain> {
+        let mirrored = e.fourier.is_some_and(|index| 2 * index > self.valence);
+        let index = e
+            .fourier
+            .map(|index| if mirrored { self.valence - index } else { index });
+        let value = if mirrored { (e.value.0, -e.value.1) } else { e.value };
+        let distance = |chain: &Chain| (chain.value.0 - value.0).hypot(chain.value.1 - value.1);
+        let side = usize::from(mirrored);
+        let left = (0..self.chains.len()).filter(|&i| self.chains[i].fourier == index && !self.taken[i][side]);
+        // the first of equal ones
+        let best = left.min_by(|&a, &b| distance(&self.chains[a]).total_cmp(&distance(&self.chains[b])))?;
+        if distance(&self.chains[best]) > SAME * value.0.hypot(value.1).max(SAME) {
+            return None;
+        }
+        self.taken[best][side] = true;
+        let chain = self.chains[best].clone();
+        Some(if mirrored { chain.conjugate() } else { chain })
+    }
+}
+
+/// Eigenvalues of the spectrum and of the chains are those of the same computation, or of one in doubles.
+const SAME: f64 = 1e-7;
+
+/// The vectors of a chain with their parts.
+trait Parts {
+    fn map(
+        &self,
+        value: Complex<f64>,
+        fourier: Option<usize>,
+        right: impl Fn(&Vec<Complex<f64>>) -> Vec<Complex<f64>>,
+        left: impl Fn(&Vec<Complex<f64>>) -> Vec<Complex<f64>>,
+    ) -> Vec<Vectors>;
+    fn conjugate(self) -> Self;
+}
+
+impl Parts for Chain {
+    fn map(
+        &self,
+        value: Complex<f64>,
+        fourier: Option<usize>,
+        right: impl Fn(&Vec<Complex<f64>>) -> Vec<Complex<f64>>,
+        left: impl Fn(&Vec<Complex<f64>>) -> Vec<Complex<f64>>,
+    ) -> Vec<Vectors> {
+        let pairs = self.right.iter().zip(&self.left);
+        let vectors = pairs.enumerate().map(|(place, (r, l))| Vectors {
+            value,
+            fourier,
+            place: place + 1,
+            right: right(r),
+            left: left(l),
+        });
+        vectors.collect()
+    }
+
+    fn conjugate(mut self) -> Self {
+        self.value.1 = -self.value.1;
+        for x in self.right.iter_mut().chain(&mut self.left).flatten() {
+            x.1 = -x.1;
+        }
+        self
+    }
 }
 
 impl<'a> Eigenvectors<'a> {
-    /// All eigenvectors.
+    /// All eigenvectors, and the further vectors of Jordan chains. With the rules in more precision they are
+    /// as exact as doubles are.
     ///
     /// # Errors
-    /// [`Error::Content`] for a defective eigenvalue, with the sizes of its Jordan blocks, and where doubles
-    /// do not tell eigenvectors of different eigenvalues apart; those of the modes.
-    pub fn new(analysis: &'a Analysis) -> Result<Self, Error> {
+    /// [`Error::Content`] where the precision does not tell eigenvectors of different eigenvalues apart, and
+    /// for a defective eigenvalue of a block that is too large for Jordan chains; those of the decomposition.
+    pub fn new(analysis: &'a Analysis, extended: Option<&Scheme<Extended>>) -> Result<Self, Error> {
         let system = &analysis.system;
         crate::matrix::check_size(system.numbering().count())?;
-        if let Some(e) = analysis.spectrum.eigenvalues.iter().find(|e| e.is_defective()) {
-            let sizes = analysis
-                .jordan(e)
-                .map_or(String::new(), |sizes| format!(", Jordan blocks of sizes {sizes}"));
-            let block = e
-                .fourier
-                .map_or(String::new(), |index| format!(" of Fourier block {index}"));
-            return Err(Error::refused(
-                format!(
-                    "the eigenvalue {}{block} is defective: multiplicity {}, {} eigenvectors{sizes}",
-                    number(e.value),
-                    e.multiplicity,
-                    e.geometric.unwrap_or(0),
-                ),
-                Accepted::Are(
-                    "matrices with as many eigenvectors as points; another number of --rings may help".to_owned(),
-                ),
-            ));
-        }
-        let mut vectors = Vec::new();
-        for e in &analysis.spectrum.eigenvalues {
-            vectors.extend(of_eigenvalue(analysis, e)?);
+        let number = analysis.level.map_or(0, |(level, _)| level);
+        let mut found = Eigenvectors {
+            analysis,
+            vectors: Vec::new(),
+            chains: Vec::new(),
+        };
+        match system.chains(extended.map(|scheme| scheme.level(number))) {
+            Ok(chains) => {
+                let mut open = Open::new(chains, system.valence());
+                for e in &analysis.spectrum.eigenvalues {
+                    found.add(e, &mut open)?;
+                }
+            }
+            // in doubles, where every eigenvalue has as many vectors as its multiplicity
+            Err(eigenring_spectral::Error::Large { .. }) => {
+                for e in &analysis.spectrum.eigenvalues {
+                    if e.is_defective() {
+                        return Err(defective(analysis, e));
+                    }
+                    found.vectors.extend(of_eigenvalue(analysis, e)?);
+                }
+            }
+            Err(error) => return Err(error.into()),
         }
         let points = system.numbering().count();
-        let found = Eigenvectors { analysis, vectors };
         if found.vectors.len() != points || !(found.residual() <= RESIDUAL) {
             return Err(Error::refused(
                 format!(
-                    "{} eigenvectors were found for {points} points: eigenvalues are too close for doubles",
+                    "{} eigenvectors were found for {points} points: eigenvalues are too close",
                     found.vectors.len()
                 ),
-                Accepted::Are("matrices whose eigenvectors doubles tell apart: lower orders, fewer rings".to_owned()),
+                Accepted::Are("matrices whose eigenvectors can be told apart: lower orders, fewer rings".to_owned()),
             ));
         }
         Ok(found)
+    }
+
+    /// Appends the vectors of an eigenvalue.
+    fn add(&mut self, e: &Eigenvalue, open: &mut Open) -> Result<(), Error> {
+        let mut missing = e.multiplicity;
+        while missing > 0 {
+            let Some(chain) = open.next(e) else {
+                return Err(Error::refused(
+                    format!("the vectors of the eigenvalue {} were not found", number(e.value)),
+                    Accepted::Are("matrices whose eigenvalues can be told apart: lower orders, fewer rings".to_owned()),
+                ));
+            };
+            let n = self.analysis.system.valence();
+            let twice = e.blocks == 2;
+            let conjugate = |(re, im): Complex<f64>| (re, -im);
+            let parts: Vec<Vec<Vectors>> = if twice && e.value.1 == 0.0 {
+                let part = |f: fn(&Complex<f64>) -> f64, sign: f64| {
+                    let take = |v: &Vec<Complex<f64>>, by: f64| v.iter().map(|x| (by * f(x), 0.0)).collect();
+                    chain.map(e.value, e.fourier, |r| take(r, 1.0), |l| take(l, 2.0 * sign))
+                };
+                vec![part(|x| x.0, 1.0), part(|x| x.1, -1.0)]
+            } else if twice {
+                let all = |v: &Vec<Complex<f64>>| v.iter().copied().map(conjugate).collect();
+                let other = e.fourier.map(|index| n - index);
+                vec![
+                    chain.map(e.value, e.fourier, Clone::clone, Clone::clone),
+                    chain.map(conjugate(e.value), other, all, all),
+                ]
+            } else {
+                vec![chain.map(e.value, e.fourier, Clone::clone, Clone::clone)]
+            };
+            for part in parts {
+                missing = missing.saturating_sub(part.len());
+                if part.len() > 1 {
+                    self.chains
+                        .push((self.vectors.len()..self.vectors.len() + part.len()).collect());
+                }
+                self.vectors.extend(part);
+            }
+        }
+        Ok(())
     }
 
     /// The largest entry of `L^T R - I`, relative to the lengths of the vectors.
@@ -157,19 +282,19 @@ impl<'a> Eigenvectors<'a> {
             "right_im": imaginary(|v| &v.right),
             "left": rows(self.matrix(|v| &v.left, false)),
             "left_im": imaginary(|v| &v.left),
-            // a defective matrix is refused
-            "chains": [],
+            // columns, the eigenvector first
+            "chains": self.chains,
         })
     }
 
-    /// A row for each vector: the eigenvalue, its Fourier index, `right` or `left`, `re` or `im`, and the
-    /// entries under the names of the points.
+    /// A row for each vector: the eigenvalue, its Fourier index, `right` or `left`, `re` or `im`, the place
+    /// in its Jordan chain, and the entries under the names of the points.
     pub fn table(&self) -> Table {
         let sites = self.analysis.system.numbering().sites();
         let names = sites
             .into_iter()
             .map(|Site { sector, x, y }| name(sector, x as usize / 2, y as usize / 2, self.analysis));
-        let head = ["re", "im", "fourier", "side", "part"].map(str::to_owned);
+        let head = ["re", "im", "fourier", "side", "part", "chain"].map(str::to_owned);
         let mut table = Table::new(head.into_iter().chain(names));
         for v in &self.vectors {
             for (side, vector) in [("right", &v.right), ("left", &v.left)] {
@@ -183,6 +308,7 @@ impl<'a> Eigenvectors<'a> {
                         v.fourier.into(),
                         side.into(),
                         part.into(),
+                        v.place.into(),
                     ];
                     row.extend(
                         vector
@@ -236,12 +362,32 @@ fn number(value: Complex<f64>) -> String {
     }
 }
 
-/// The vectors of one eigenvalue of the spectrum.
+/// The refusal of a matrix whose Jordan chains are out of reach, with its Jordan block.
+fn defective(analysis: &Analysis, e: &Eigenvalue) -> Error {
+    let sizes = analysis
+        .jordan(e)
+        .map_or(String::new(), |sizes| format!(", Jordan blocks of sizes {sizes}"));
+    let block = e
+        .fourier
+        .map_or(String::new(), |index| format!(" of Fourier block {index}"));
+    Error::refused(
+        format!(
+            "the eigenvalue {}{block} is defective: multiplicity {}, {} eigenvectors{sizes}",
+            number(e.value),
+            e.multiplicity,
+            e.geometric.unwrap_or(0),
+        ),
+        Accepted::Are("here matrices with as many eigenvectors as points; fewer --rings have Jordan chains".to_owned()),
+    )
+}
+
+/// The vectors of one eigenvalue of the spectrum, in doubles.
 fn of_eigenvalue(analysis: &Analysis, e: &Eigenvalue) -> Result<Vec<Vectors>, Error> {
     let (system, n) = (&analysis.system, analysis.system.valence());
     let plain = |mode: Mode, value, fourier| Vectors {
         value,
         fourier,
+        place: 1,
         right: mode.values,
         left: mode.functional,
     };
@@ -264,6 +410,7 @@ fn of_eigenvalue(analysis: &Analysis, e: &Eigenvalue) -> Result<Vec<Vectors>, Er
             let of = |right, left| Vectors {
                 value: e.value,
                 fourier: Some(index),
+                place: 1,
                 right,
                 left,
             };
@@ -284,33 +431,53 @@ mod tests {
     use super::*;
     use crate::matrix::LocalMatrix;
     use crate::schemes::{SchemeName, Tuner};
+    use eigenring_scheme::Shape;
 
-    /// `S R = R D` on the dense matrix, which is made without Fourier blocks.
+    fn found(spec: &str, valence: usize, rings: Option<usize>) -> (Scheme<f64>, Option<Scheme<Extended>>, Analysis) {
+        let name = spec.parse::<SchemeName>().unwrap();
+        let scheme = name.scheme(valence, &Tuner::default()).unwrap();
+        let corner = Shape::Closed { sectors: valence }
+            .corner(name.centre().unwrap(), None)
+            .unwrap();
+        let extended = name.extended(&corner).unwrap();
+        let rings = rings.or(Some(scheme.closed_rings().unwrap()));
+        let analysis = Analysis::of_rules(&scheme, extended.as_ref(), rings, None).unwrap();
+        (scheme, extended, analysis)
+    }
+
+    /// `S R = R J` on the dense matrix, which is made without Fourier blocks.
     #[test]
     fn vectors_are_those_of_the_dense_matrix() {
-        for (spec, valences) in [
-            ("catmull-clark", vec![3, 4, 5, 6, 9, 16, 64]),
-            ("doo-sabin:uniform", vec![5, 8]),
-            ("stam:order=3", vec![5]),
-            ("lambda:optimal", vec![3, 6, 7]),
+        for (spec, valences, rings) in [
+            ("catmull-clark", vec![3, 4, 5, 6, 9, 16, 64], None),
+            ("doo-sabin:uniform", vec![3, 5, 8, 20], None),
+            // defective
+            ("doo-sabin", vec![5, 8], Some(1)),
+            ("stam:order=3", vec![3, 5], Some(1)),
+            ("stam:order=6", vec![7, 20], None),
+            ("lambda:optimal", vec![3, 6, 7, 20], None),
         ] {
             for valence in valences {
-                let scheme = spec
-                    .parse::<SchemeName>()
-                    .unwrap()
-                    .scheme(valence, &Tuner::default())
-                    .unwrap();
-                let rings = scheme.closed_rings().unwrap();
-                let analysis = Analysis::of_scheme(&scheme, Some(rings), None).unwrap();
-                let found = Eigenvectors::new(&analysis).unwrap();
+                let (scheme, extended, analysis) = found(spec, valence, rings);
+                let found = Eigenvectors::new(&analysis, extended.as_ref()).unwrap();
+                let rings = analysis.system.numbering().rings;
                 let matrix = LocalMatrix::new(&scheme, Some(rings), None).unwrap().matrix;
-                assert!(found.residual() < 1e-10, "{spec} {valence}: {}", found.residual());
-                for v in &found.vectors {
-                    let largest = v.right.iter().map(|x| x.modulus()).fold(0.0, f64::max);
+                assert!(found.residual() < 1e-13, "{spec} {valence}: {}", found.residual());
+                let defective = analysis.spectrum.eigenvalues.iter().any(Eigenvalue::is_defective);
+                assert_eq!(!found.chains.is_empty(), defective, "{spec} {valence}");
+                for (column, v) in found.vectors.iter().enumerate() {
+                    let largest = v.right.iter().map(|x| x.0.hypot(x.1)).fold(0.0, f64::max);
+                    let before = (v.place > 1).then(|| &found.vectors[column - 1].right);
+                    let largest = before
+                        .iter()
+                        .flat_map(|b| b.iter())
+                        .map(|x| x.0.hypot(x.1))
+                        .fold(largest, f64::max);
                     for (i, x) in v.right.iter().enumerate() {
-                        let image: f64 = matrix.row(i).iter().zip(&v.right).map(|(m, x)| m * x.re).sum();
-                        let error = (image - v.value.re * x.re + v.value.im * x.im).abs();
-                        assert!(error < 1e-11 * largest, "{spec} {valence}: {error}");
+                        let image: f64 = matrix.row(i).iter().zip(&v.right).map(|(m, x)| m * x.0).sum();
+                        let chained = before.map_or(0.0, |b| b[i].0);
+                        let error = (image - v.value.0 * x.0 + v.value.1 * x.1 - chained).abs();
+                        assert!(error < 1e-13 * largest, "{spec} {valence}: {error}");
                     }
                 }
             }
@@ -324,10 +491,7 @@ mod tests {
             env!("CARGO_MANIFEST_DIR"),
             "/../../tests/data/cases/asymmetric-line-n5.toml"
         );
-        let name = format!("file:{path}").parse::<SchemeName>().unwrap();
-        let scheme = name.scheme(5, &Tuner::default()).unwrap();
-        let rings = scheme.closed_rings().unwrap();
-        let analysis = Analysis::of_scheme(&scheme, Some(rings), None).unwrap();
+        let (_, extended, analysis) = found(&format!("file:{path}"), 5, None);
         let eigenvalues = &analysis.spectrum.eigenvalues;
         let complex: Vec<_> = eigenvalues.iter().filter(|e| e.value.im != 0.0).collect();
         assert!(!complex.is_empty());
@@ -337,20 +501,8 @@ mod tests {
         }
         let count: usize = eigenvalues.iter().map(|e| e.multiplicity).sum();
         assert_eq!(count, analysis.system.numbering().count());
-        let vectors = Eigenvectors::new(&analysis).unwrap();
-        assert!(vectors.residual() < 1e-10);
-        assert!(vectors.vectors.iter().any(|v| v.fourier == Some(4) && v.value.im > 0.0));
-    }
-
-    #[test]
-    fn defective_matrices_are_refused_with_their_jordan_blocks() {
-        let scheme = "doo-sabin"
-            .parse::<SchemeName>()
-            .unwrap()
-            .scheme(5, &Tuner::default())
-            .unwrap();
-        let analysis = Analysis::of_scheme(&scheme, Some(1), None).unwrap();
-        let error = Eigenvectors::new(&analysis).unwrap_err().to_string();
-        assert!(error.contains("defective"), "{error}");
+        let vectors = Eigenvectors::new(&analysis, extended.as_ref()).unwrap();
+        assert!(vectors.residual() < 1e-13);
+        assert!(vectors.vectors.iter().any(|v| v.fourier == Some(4) && v.value.1 > 0.0));
     }
 }

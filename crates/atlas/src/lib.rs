@@ -29,6 +29,7 @@
 //! | [`schemes`] | a scheme from a name: `catmull-clark`, `lambda:optimal`, `file:my.toml`; the [`schemes::Tuner`] for what is not tabulated |
 //! | [`spectrum`], [`matrix`] | eigenvalues and limit stencils; the local matrix in the formats of other programs |
 //! | [`given`], [`numbers`] | a matrix that somebody has, whatever its order and rotation; reading tables of numbers |
+//! | [`eigenvectors`], [`stam`] | all right and left vectors with Jordan chains; Stam's evaluation basis |
 //! | [`compare`] | schemes side by side over valences |
 //! | [`stencil`], [`tune`] | one member of the lambda-scheme; the best one |
 //! | [`tuning`] | the best values for the parameters of a scheme file |
@@ -75,6 +76,7 @@ pub mod results;
 pub mod run;
 pub mod schemes;
 pub mod spectrum;
+pub mod stam;
 pub mod stencil;
 pub mod sweep;
 pub mod table;

@@ -39,6 +39,41 @@ pub enum Error {
         /// Its largest entry in modulus; NaN if one is.
         largest: f64,
     },
+    /// Stam's basis is made of bicubic patches.
+    #[error(
+        "Stam's basis is of bicubic patches around a vertex, with the same rules on all levels and no special rules beyond \
+         its edge and face points: this surface is another"
+    )]
+    NotBicubic,
+    /// Stam's basis has real eigenvalues.
+    #[error("the eigenvalue {re} {im:+} i is complex: there is no basis of real eigenvectors")]
+    NotReal {
+        /// Its real part.
+        re: f64,
+        /// Its imaginary part.
+        im: f64,
+    },
+    /// Stam's basis is one of eigenvectors.
+    #[error(
+        "the eigenvalue {value}{} is defective, with a Jordan block of size {size}: there is no basis of eigenvectors",
+        fourier.map_or(String::new(), |index| format!(" of Fourier block {index}"))
+    )]
+    JordanBlock {
+        /// The eigenvalue.
+        value: f64,
+        /// Its Fourier block.
+        fourier: Option<usize>,
+        /// The size.
+        size: usize,
+    },
+    /// Jordan chains are found in extended precision, whose time grows with the cube of the size.
+    #[error("a block of {size} unknowns is too large for Jordan chains: at most {most}")]
+    Large {
+        /// The unknowns.
+        size: usize,
+        /// How many are accepted.
+        most: usize,
+    },
     /// A matrix has no eigenvalue near the given one.
     #[error(
         "{value} is not an eigenvalue of Fourier block {fourier}: the smallest singular value of S - {value} is {gap}"

@@ -25,6 +25,8 @@ use faer::{Mat, c64};
 pub(crate) struct Repeated {
     /// The value.
     pub value: Complex<f64>,
+    /// The same in more precision, where the block is real.
+    pub extended: Value,
     /// How often it is a root of the characteristic polynomial.
     pub algebraic: usize,
     /// How many independent eigenvectors it has: at least one, and at most `algebraic`, out of which they are
@@ -70,7 +72,7 @@ impl Precision {
     /// A pivot of the block less an eigenvalue below this times the largest is zero. A repeated eigenvalue
     /// with all its vectors leaves rounding; a defective one leaves what couples its vectors, which is no
     /// matter of rounding: half the digits stand between.
-    fn null(self) -> f64 {
+    pub(crate) fn null(self) -> f64 {
         match self {
             Precision::Rounded(unit) => (64.0 * unit).max(crate::NULL),
             Precision::Extended => 1e-50,
@@ -216,6 +218,7 @@ pub(crate) fn repeated(block: &Block<Extended>, precision: Precision) -> Result<
             };
             Ok(Repeated {
                 value,
+                extended: cluster.mean,
                 algebraic: cluster.count,
                 geometric: geometric.max(1),
             })

@@ -59,10 +59,10 @@ pub struct Spectrum {
 
 /// Of blocks of more unknowns the core is decomposed, and if that has more, in doubles, with gaps in place of
 /// tests: 250 take some seconds.
-const MAX_EXTENDED: usize = 250;
+pub(crate) const MAX_EXTENDED: usize = 250;
 
 /// The same for matrices that are known in doubles only, of which less can be told.
-const MAX_LIFTED: usize = 40;
+pub(crate) const MAX_LIFTED: usize = 40;
 
 impl LocalSystem {
     /// All eigenvalues with their algebraic and geometric multiplicities, as far as a matrix of doubles

@@ -178,6 +178,11 @@ impl LocalSystem {
         &self.blocks
     }
 
+    /// Whether the unknowns of the blocks are those of rules with mirror symmetry.
+    pub(crate) fn has_mirror(&self) -> bool {
+        self.mirror
+    }
+
     /// The largest distance of a row sum of the local matrix from 1.
     pub fn row_sum_defect(&self) -> f64 {
         self.row_sum_defect
