@@ -505,4 +505,32 @@ mod tests {
         assert!(vectors.residual() < 1e-13);
         assert!(vectors.vectors.iter().any(|v| v.fourier == Some(4) && v.value.1 > 0.0));
     }
+
+    /// `l S = lambda l` on the dense matrix for the complex vector whose parts the tangents are.
+    #[test]
+    fn tangents_of_a_complex_pair_are_its_left_vector() {
+        let path = concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/../../tests/data/cases/asymmetric-line-n5.toml"
+        );
+        let (scheme, _, analysis) = found(&format!("file:{path}"), 5, None);
+        let rings = analysis.system.numbering().rings;
+        let matrix = LocalMatrix::new(&scheme, Some(rings), None).unwrap().matrix;
+        let eigenvalues = analysis.spectrum.eigenvalues.iter();
+        let lambda = eigenvalues.into_iter().find(|e| e.fourier == Some(1)).unwrap().value;
+        assert!(lambda.1 != 0.0);
+        let json = analysis.json();
+        let tangent = |name: &str| -> Vec<f64> {
+            let numbers = json["limit_stencils"][name].as_array().unwrap();
+            numbers.iter().map(|x| x.as_f64().unwrap()).collect()
+        };
+        let (x, y) = (tangent("tangent_x"), tangent("tangent_y"));
+        assert!(x.iter().any(|w| w.abs() > 0.1));
+        for j in 0..x.len() {
+            // l = x - i y
+            let image = |t: &[f64]| (0..t.len()).map(|i| t[i] * matrix[(i, j)]).sum::<f64>();
+            assert!((image(&x) - lambda.0 * x[j] - lambda.1 * y[j]).abs() < 1e-13);
+            assert!((-image(&y) - lambda.1 * x[j] + lambda.0 * y[j]).abs() < 1e-13);
+        }
+    }
 }

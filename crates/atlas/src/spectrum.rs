@@ -370,18 +370,16 @@ impl Limits {
             (x, y) => format!("P_{}({},{})", site.sector, x / 2, y / 2),
         };
         let symmetric = system.symmetric();
-        let lambda = analysis
-            .spectrum
-            .eigenvalues
-            .iter()
-            .find(|e| e.fourier == Some(1) && e.value.im == 0.0);
+        // a complex one of block 1 alone has its conjugate in block N-1, and a tangent plane too
+        let mut leading = analysis.spectrum.eigenvalues.iter().filter(|e| e.fourier == Some(1));
+        let lambda = leading.find(|e| e.value.im == 0.0 || e.blocks == 1);
         let stray = analysis.spectrum.stray().zip(analysis.spectrum.subdominant());
         let tangents = match lambda {
             _ if stray.is_some() => Err(eigenring_spectral::Error::Stray {
                 value: stray.map_or(f64::NAN, |(_, e)| e.modulus()),
                 fourier: stray.map_or(0, |(index, _)| index),
             }),
-            Some(lambda) => system.limit_tangents(lambda.value.re),
+            Some(lambda) => system.complex_tangents(lambda.value),
             // without blocks: of the pair after 1, equal or not
             None => system.pair_functionals(&analysis.spectrum),
         };

@@ -10,8 +10,8 @@ use crate::extended::{Extended, UNIT};
 use eigenring_scheme::{Complex, Scalar};
 use std::ops::{Add, Div, Mul, Sub};
 
-/// Steps per eigenvalue that are waited for; three are usual.
-const STEPS: usize = 60;
+/// Steps per eigenvalue that are waited for; three are usual, and defective ones take many.
+const STEPS: usize = 400;
 
 /// A matrix in Hessenberg form, with the same eigenvalues and singular values of shifts as the one it was
 /// made from.

@@ -23,6 +23,9 @@ const STEPS: usize = 5;
 /// Corrections below this times the largest entry are rounding.
 const CORRECTED: f64 = 1e-70;
 
+/// Entries below this times the largest are zeros: a tenth of the digits for what elimination loses.
+const ZERO: f64 = 1e-60;
+
 /// A Jordan chain of a local matrix; of length one, an eigenvector.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chain {
@@ -132,7 +135,11 @@ fn spread(
         turn(&mut left, at);
     }
     let round = |vectors: Vec<Vec<Value>>| {
-        let vector = |v: Vec<Value>| v.into_iter().map(|x| (x.0.to_f64(), x.1.to_f64())).collect();
+        let vector = |v: Vec<Value>| {
+            let null = ZERO * v.iter().map(|x| Pair(x.0, x.1).size()).fold(0.0, f64::max);
+            let part = |x: Extended| if x.size() <= null { 0.0 } else { x.to_f64() };
+            v.into_iter().map(|x| (part(x.0), part(x.1))).collect()
+        };
         vectors.into_iter().map(vector).collect()
     };
     Ok(Chain {
@@ -655,6 +662,7 @@ mod tests {
         let columns: Vec<Vec<Extended>> = (0..n).map(|j| (0..n).map(|i| t[(i, j)]).collect()).collect();
         let inverse = Matrix::from_rows(dual(&(0..n).map(unit).collect::<Vec<_>>(), &columns).unwrap(), n);
         let matrix = product(&product(&t, &jordan), &inverse);
+        eprintln!("{:?}", repeated(&Block::Real(matrix.clone()), Precision::Extended));
         let found = Block::Real(matrix.clone()).vectors(Precision::Extended, 0).unwrap();
         let mut lengths: Vec<(f64, usize)> = Vec::new();
         for (value, chains) in &found {
@@ -680,11 +688,14 @@ mod tests {
     }
     /// The fraction of least denominator within rounding of a number.
     fn fraction(x: f64) -> BigRational {
-        let found = (1..100_000_i64).find_map(|q| {
+        let found = (1..1_000_000_i64).find_map(|q| {
             let p = (x * q as f64).round();
             ((p / q as f64 - x).abs() <= 4.0 * f64::EPSILON * x.abs())
                 .then(|| BigRational::new((p as i64).into(), q.into()))
         });
+        if found.is_none() {
+            eprintln!("{x:e}");
+        }
         found.expect("the vectors of a rational matrix at a rational value are rational")
     }
 

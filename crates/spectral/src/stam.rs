@@ -326,7 +326,7 @@ mod tests {
         let own: Vec<[f64; 2]> = places.iter().map(|&place| control[place]).collect();
         let annulus = Annulus::new(scheme).unwrap();
         let whole = local_matrix(level, 2).unwrap();
-        let mut fine = control;
+        let (first, mut fine) = (control.clone(), control);
         for m in 0..=20_i32 {
             let unit = 0.5_f64.powi(m);
             let mut outer = fine.clone();
@@ -387,8 +387,13 @@ mod tests {
                 })
                 .collect();
         }
+        // the vertex itself, by the limit stencil
+        let position = LocalSystem::new(level, 2).unwrap().limit_position().unwrap();
         let at_vertex = stam.limit(&own, 0.0, 0.0).unwrap();
-        assert!((0..2).all(|d| (at_vertex[d] - fine[0][d]).abs() < 1e-6));
+        for d in 0..2 {
+            let expected: f64 = position.iter().zip(&first).map(|(w, p)| w * p[d]).sum();
+            assert!((at_vertex[d] - expected).abs() < 1e-12, "{n}: {at_vertex:?}");
+        }
     }
 
     #[test]

@@ -298,7 +298,24 @@ impl LocalSystem {
     /// # Errors
     /// [`Error::Multiplicity`] unless the eigenspace in block 1 has dimension one.
     pub fn limit_tangents(&self, lambda: f64) -> Result<[Vec<f64>; 2], Error> {
-        let mode = self.single(1, lambda)?;
+        self.complex_tangents((lambda, 0.0))
+    }
+
+    /// The same for a simple eigenvalue of block 1 that may be complex: without mirror symmetry, blocks 1 and
+    /// N-1 have conjugates, and the tangent plane is that of the real and imaginary part of the left vector.
+    ///
+    /// # Errors
+    /// As [`LocalSystem::limit_tangents`].
+    pub fn complex_tangents(&self, lambda: Complex<f64>) -> Result<[Vec<f64>; 2], Error> {
+        let modes = self.modes(1, lambda)?;
+        let [mode] = modes.as_slice() else {
+            return Err(Error::Multiplicity {
+                value: lambda.0.hypot(lambda.1),
+                fourier: 1,
+                found: modes.len(),
+                expected: 1,
+            });
+        };
         Ok([
             mode.functional.iter().map(|w| 2.0 * w.re).collect(),
             mode.functional.iter().map(|w| -2.0 * w.im).collect(),
