@@ -296,8 +296,8 @@ mod tests {
     use eigenring_scheme::families::catmull_clark;
     use eigenring_scheme::{Centre, Corner, Definition, PointNet, Spec};
 
-    /// `V^-1 A = L V^-1`, with A refined from the rules, relative to the largest absolute column sum and entry;
-    /// and the limit against plain refinement, down to parameters of 2^-20.
+    /// `V^-1 A = L V^-1`, with A refined from the rules, relative to the largest absolute column sum and
+    /// entry; and the limit against plain refinement, down to parameters of 2^-20.
     fn check(scheme: &Scheme<f64>, stam: &Stam) {
         let (n, level) = (stam.valence, scheme.limit());
         let points = stam_points(n, stam.is_regular());
