@@ -64,13 +64,13 @@ impl Open {
         let index = e
             .fourier
             .map(|index| if mirrored { self.valence - index } else { index });
-        let value = if mirrored { (e.value.0, -e.value.1) } else { e.value };
-        let distance = |chain: &Chain| (chain.value.0 - value.0).hypot(chain.value.1 - value.1);
+        let value = if mirrored { e.value.conj() } else { e.value };
+        let distance = |chain: &Chain| (chain.value - value).modulus();
         let side = usize::from(mirrored);
         let left = (0..self.chains.len()).filter(|&i| self.chains[i].fourier == index && !self.taken[i][side]);
         // the first of equal ones
         let best = left.min_by(|&a, &b| distance(&self.chains[a]).total_cmp(&distance(&self.chains[b])))?;
-        if distance(&self.chains[best]) > SAME * value.0.hypot(value.1).max(SAME) {
+        if distance(&self.chains[best]) > SAME * value.modulus().max(SAME) {
             return None;
         }
         self.taken[best][side] = true;
@@ -114,9 +114,9 @@ impl Parts for Chain {
     }
 
     fn conjugate(mut self) -> Self {
-        self.value.1 = -self.value.1;
+        self.value.im = -self.value.im;
         for x in self.right.iter_mut().chain(&mut self.left).flatten() {
-            x.1 = -x.1;
+            x.im = -x.im;
         }
         self
     }
@@ -181,13 +181,13 @@ impl<'a> Eigenvectors<'a> {
             };
             let n = self.analysis.system.valence();
             let twice = e.blocks == 2;
-            let conjugate = |(re, im): Complex<f64>| (re, -im);
-            let parts: Vec<Vec<Vectors>> = if twice && e.value.1 == 0.0 {
+            let conjugate = Complex::<f64>::conj;
+            let parts: Vec<Vec<Vectors>> = if twice && e.value.im == 0.0 {
                 let part = |f: fn(&Complex<f64>) -> f64, sign: f64| {
-                    let take = |v: &Vec<Complex<f64>>, by: f64| v.iter().map(|x| (by * f(x), 0.0)).collect();
+                    let take = |v: &Vec<Complex<f64>>, by: f64| v.iter().map(|x| Complex::real(by * f(x))).collect();
                     chain.map(e.value, e.fourier, |r| take(r, 1.0), |l| take(l, 2.0 * sign))
                 };
-                vec![part(|x| x.0, 1.0), part(|x| x.1, -1.0)]
+                vec![part(|x| x.re, 1.0), part(|x| x.im, -1.0)]
             } else if twice {
                 let all = |v: &Vec<Complex<f64>>| v.iter().copied().map(conjugate).collect();
                 let other = e.fourier.map(|index| n - index);
@@ -466,17 +466,17 @@ mod tests {
                 let defective = analysis.spectrum.eigenvalues.iter().any(Eigenvalue::is_defective);
                 assert_eq!(!found.chains.is_empty(), defective, "{spec} {valence}");
                 for (column, v) in found.vectors.iter().enumerate() {
-                    let largest = v.right.iter().map(|x| x.0.hypot(x.1)).fold(0.0, f64::max);
+                    let largest = v.right.iter().map(|x| x.modulus()).fold(0.0, f64::max);
                     let before = (v.place > 1).then(|| &found.vectors[column - 1].right);
                     let largest = before
                         .iter()
                         .flat_map(|b| b.iter())
-                        .map(|x| x.0.hypot(x.1))
+                        .map(|x| x.modulus())
                         .fold(largest, f64::max);
                     for (i, x) in v.right.iter().enumerate() {
-                        let image: f64 = matrix.row(i).iter().zip(&v.right).map(|(m, x)| m * x.0).sum();
-                        let chained = before.map_or(0.0, |b| b[i].0);
-                        let error = (image - v.value.0 * x.0 + v.value.1 * x.1 - chained).abs();
+                        let image: f64 = matrix.row(i).iter().zip(&v.right).map(|(m, x)| m * x.re).sum();
+                        let chained = before.map_or(0.0, |b| b[i].re);
+                        let error = (image - v.value.re * x.re + v.value.im * x.im - chained).abs();
                         assert!(error < 1e-13 * largest, "{spec} {valence}: {error}");
                     }
                 }
@@ -503,7 +503,7 @@ mod tests {
         assert_eq!(count, analysis.system.numbering().count());
         let vectors = Eigenvectors::new(&analysis, extended.as_ref()).unwrap();
         assert!(vectors.residual() < 1e-13);
-        assert!(vectors.vectors.iter().any(|v| v.fourier == Some(4) && v.value.1 > 0.0));
+        assert!(vectors.vectors.iter().any(|v| v.fourier == Some(4) && v.value.im > 0.0));
     }
 
     /// `l S = lambda l` on the dense matrix for the complex vector whose parts the tangents are.
@@ -518,7 +518,7 @@ mod tests {
         let matrix = LocalMatrix::new(&scheme, Some(rings), None).unwrap().matrix;
         let eigenvalues = analysis.spectrum.eigenvalues.iter();
         let lambda = eigenvalues.into_iter().find(|e| e.fourier == Some(1)).unwrap().value;
-        assert!(lambda.1 != 0.0);
+        assert!(lambda.im != 0.0);
         let json = analysis.json();
         let tangent = |name: &str| -> Vec<f64> {
             let numbers = json["limit_stencils"][name].as_array().unwrap();
@@ -529,8 +529,8 @@ mod tests {
         for j in 0..x.len() {
             // l = x - i y
             let image = |t: &[f64]| (0..t.len()).map(|i| t[i] * matrix[(i, j)]).sum::<f64>();
-            assert!((image(&x) - lambda.0 * x[j] - lambda.1 * y[j]).abs() < 1e-13);
-            assert!((-image(&y) - lambda.1 * x[j] + lambda.0 * y[j]).abs() < 1e-13);
+            assert!((image(&x) - lambda.re * x[j] - lambda.im * y[j]).abs() < 1e-13);
+            assert!((-image(&y) - lambda.im * x[j] + lambda.re * y[j]).abs() < 1e-13);
         }
     }
 }

@@ -11,7 +11,7 @@
 
 use crate::echelon::PIVOT;
 use crate::extended::Extended;
-use crate::hessenberg::{Number, Pair, Value};
+use crate::hessenberg::Number;
 use crate::repeated::{Precision, repeated};
 use crate::spectrum::{MAX_EXTENDED, MAX_LIFTED};
 use crate::{Block, Error, LocalSystem, Matrix, local_matrix, matrix::Assembly};
@@ -56,7 +56,7 @@ impl LocalSystem {
         let precision = if level.is_some() {
             Precision::Extended
         } else {
-            Precision::Double
+            Precision::Rounded(0.0)
         };
         let most = if level.is_some() { MAX_EXTENDED } else { MAX_LIFTED };
         let size = self.blocks().iter().map(Block::size).fold(0, usize::max);
@@ -100,16 +100,16 @@ fn spread(
     sites: &[Site],
     value: Complex<f64>,
     index: usize,
-    right: Vec<Vec<Value>>,
-    left: Vec<Vec<Value>>,
+    right: Vec<Vec<Complex<Extended>>>,
+    left: Vec<Vec<Complex<Extended>>>,
 ) -> Result<Chain, Error> {
     let (mut right, mut left) = match net {
         Some(net) => {
-            let values = |unknowns: &Vec<Value>| -> Result<Vec<Value>, Error> {
+            let values = |unknowns: &Vec<Complex<Extended>>| -> Result<Vec<Complex<Extended>>, Error> {
                 let value = |&site: &Site| Ok(net.mode(unknowns, site)?);
                 sites.iter().map(value).collect()
             };
-            let weights = |coefficients: &Vec<Value>| -> Result<Vec<Value>, Error> {
+            let weights = |coefficients: &Vec<Complex<Extended>>| -> Result<Vec<Complex<Extended>>, Error> {
                 let weight = |&site: &Site| Ok(net.functional(coefficients, site)?);
                 sites.iter().map(weight).collect()
             };
@@ -122,23 +122,22 @@ fn spread(
     };
     // unknowns off the spokes carry a phase: the value at the pivot is 1 once it is turned
     let centre = usize::from(net.is_some() && sites.first() == Some(&Site::CENTRE));
-    if let Some(pivot) = pivot(&right[0].iter().map(|x| Pair(x.0, x.1)).collect::<Vec<_>>(), centre) {
-        let at = Pair(right[0][pivot].0, right[0][pivot].1);
-        let forth = Pair::real(1.0) / at;
-        let turn = |vectors: &mut Vec<Vec<Value>>, by: Pair| {
+    if let Some(pivot) = pivot(&right[0], centre) {
+        let at = right[0][pivot];
+        let forth = Complex::<Extended>::one() / at;
+        let turn = |vectors: &mut Vec<Vec<Complex<Extended>>>, by: Complex<Extended>| {
             for x in vectors.iter_mut().flatten() {
-                let Pair(re, im) = Pair(x.0, x.1) * by;
-                *x = (re, im);
+                *x = *x * by;
             }
         };
         turn(&mut right, forth);
         turn(&mut left, at);
     }
-    let round = |vectors: Vec<Vec<Value>>| {
-        let vector = |v: Vec<Value>| {
-            let null = ZERO * v.iter().map(|x| Pair(x.0, x.1).size()).fold(0.0, f64::max);
+    let round = |vectors: Vec<Vec<Complex<Extended>>>| {
+        let vector = |v: Vec<Complex<Extended>>| {
+            let null = ZERO * v.iter().map(|x| x.size()).fold(0.0, f64::max);
             let part = |x: Extended| if x.size() <= null { 0.0 } else { x.to_f64() };
-            v.into_iter().map(|x| (part(x.0), part(x.1))).collect()
+            v.into_iter().map(|x| x.map(part)).collect()
         };
         vectors.into_iter().map(vector).collect()
     };
@@ -157,19 +156,19 @@ fn pivot<T: Number>(vector: &[T], centre: usize) -> Option<usize> {
     order.into_iter().find(|&i| vector[i].size() > PIVOT * length)
 }
 
-type Chains = Vec<(Vec<Vec<Value>>, Vec<Vec<Value>>)>;
+type Chains = Vec<(Vec<Vec<Complex<Extended>>>, Vec<Vec<Complex<Extended>>>)>;
 
 impl Block<Extended> {
     /// The chains of all eigenvalues, by falling modulus.
     pub(crate) fn vectors(&self, precision: Precision, centre: usize) -> Result<Vec<(Complex<f64>, Chains)>, Error> {
         let mut all = Vec::new();
         for found in repeated(self, precision)? {
-            let (re, im) = found.extended;
+            let Complex { re, im } = found.extended;
             let chains = match self {
                 Block::Real(matrix) if im.to_f64() == 0.0 => {
                     let vectors = vectors(matrix, re, found.algebraic, found.geometric, precision, centre)?;
-                    let convert = |v: Vec<Vec<Extended>>| -> Vec<Vec<Value>> {
-                        let pair = |v: Vec<Extended>| v.into_iter().map(|x| (x, Extended::default())).collect();
+                    let convert = |v: Vec<Vec<Extended>>| -> Vec<Vec<Complex<Extended>>> {
+                        let pair = |v: Vec<Extended>| v.into_iter().map(Complex::real).collect();
                         v.into_iter().map(pair).collect()
                     };
                     vectors
@@ -179,24 +178,9 @@ impl Block<Extended> {
                         .collect()
                 }
                 _ => {
-                    let matrix = self.to_complex().map(|(re, im)| Pair(re, im));
-                    let vectors = vectors(
-                        &matrix,
-                        Pair(re, im),
-                        found.algebraic,
-                        found.geometric,
-                        precision,
-                        centre,
-                    )?;
-                    let convert = |v: Vec<Vec<Pair>>| -> Vec<Vec<Value>> {
-                        let pair = |v: Vec<Pair>| v.into_iter().map(|x| (x.0, x.1)).collect();
-                        v.into_iter().map(pair).collect()
-                    };
-                    vectors
-                        .chains
-                        .into_iter()
-                        .map(|(r, l)| (convert(r), convert(l)))
-                        .collect()
+                    let matrix = self.to_complex();
+                    let value = Complex::new(re, im);
+                    vectors(&matrix, value, found.algebraic, found.geometric, precision, centre)?.chains
                 }
             };
             all.push((found.value, chains));
@@ -517,7 +501,7 @@ mod tests {
     use eigenring_spline::BigRational;
 
     fn largest(v: &[Complex<f64>]) -> f64 {
-        v.iter().map(|x| x.0.hypot(x.1)).fold(0.0, f64::max)
+        v.iter().map(|x| x.re.hypot(x.im)).fold(0.0, f64::max)
     }
 
     /// The chain equations and duality on the dense matrix, relative to the norms: the largest entry of a
@@ -542,8 +526,8 @@ mod tests {
                 let entry = |j: usize| if transposed { matrix[(j, i)] } else { matrix[(i, j)] };
                 let image = (0..n).fold((0.0, 0.0), |s, j| (s.0 + entry(j) * v[j].0, s.1 + entry(j) * v[j].1));
                 let b = before.map_or((0.0, 0.0), |b| b[i]);
-                let re = image.0 - value.0 * v[i].0 + value.1 * v[i].1 - b.0;
-                let im = image.1 - value.0 * v[i].1 - value.1 * v[i].0 - b.1;
+                let re = image.0 - value.re * v[i].0 + value.im * v[i].1 - b.0;
+                let im = image.1 - value.re * v[i].1 - value.im * v[i].0 - b.1;
                 worst = worst.max(re.hypot(im) / scale);
             }
         };
@@ -565,7 +549,7 @@ mod tests {
                 .flat_map(|c| side(c).iter().map(|v| (c.fourier, v)))
                 .collect()
         };
-        let length = |v: &[Complex<f64>]| v.iter().map(|x| x.0 * x.0 + x.1 * x.1).sum::<f64>().sqrt();
+        let length = |v: &[Complex<f64>]| v.iter().map(|x| x.re * x.re + x.im * x.im).sum::<f64>().sqrt();
         for (i, (_, l)) in flat(|c| &c.left).iter().enumerate() {
             for (j, (_, r)) in flat(|c| &c.right).iter().enumerate() {
                 let dot = l.iter().zip(r.iter()).fold((0.0, 0.0), |s, (l, r)| {
@@ -619,7 +603,7 @@ mod tests {
             .filter(|c| c.right.len() > 1 && c.fourier == Some(1))
             .collect();
         assert_eq!(long.len(), 1, "{found:?}");
-        assert!(long[0].right.len() == 2 && (long[0].value.0 - 0.25).abs() < 1e-15);
+        assert!(long[0].right.len() == 2 && (long[0].value.re - 0.25).abs() < 1e-15);
     }
 
     /// The oracle is a planted Jordan form with integer similarity: blocks of sizes 3 and 2 at 1/2, 2 and 1
@@ -667,18 +651,22 @@ mod tests {
         let mut lengths: Vec<(f64, usize)> = Vec::new();
         for (value, chains) in &found {
             for (right, left) in chains {
-                lengths.push((value.0, right.len()));
+                lengths.push((value.re, right.len()));
                 for k in 0..right.len() {
-                    let vector: Vec<Extended> = right[k].iter().map(|x| x.0).collect();
+                    let vector: Vec<Extended> = right[k].iter().map(|x| x.re).collect();
                     for (i, image) in times(&matrix, &vector).into_iter().enumerate() {
-                        let before = if k == 0 { Extended::default() } else { right[k - 1][i].0 };
-                        let error = (image - Extended::exact(value.0) * vector[i] - before).to_f64();
+                        let before = if k == 0 {
+                            Extended::default()
+                        } else {
+                            right[k - 1][i].re
+                        };
+                        let error = (image - Extended::exact(value.re) * vector[i] - before).to_f64();
                         assert!(error.abs() < 1e-40, "{error}");
                     }
-                    let functional: Vec<Extended> = left[k].iter().map(|x| x.0).collect();
+                    let functional: Vec<Extended> = left[k].iter().map(|x| x.re).collect();
                     for (i, image) in times(&transposed(&matrix), &functional).into_iter().enumerate() {
-                        let next = left.get(k + 1).map_or(Extended::default(), |next| next[i].0);
-                        let error = (image - Extended::exact(value.0) * functional[i] - next).to_f64();
+                        let next = left.get(k + 1).map_or(Extended::default(), |next| next[i].re);
+                        let error = (image - Extended::exact(value.re) * functional[i] - next).to_f64();
                         assert!(error.abs() < 1e-40, "{error}");
                     }
                 }
@@ -711,12 +699,12 @@ mod tests {
         assert!(
             found
                 .iter()
-                .any(|c| c.right.len() == 2 && (c.value.0 - 0.25).abs() < 1e-15),
+                .any(|c| c.right.len() == 2 && (c.value.re - 0.25).abs() < 1e-15),
             "{found:?}"
         );
         let matrix = local_matrix(scheme.limit(), rings).unwrap();
         let n = matrix.rows();
-        let exact = |v: &[Complex<f64>]| v.iter().map(|x| fraction(x.0)).collect::<Vec<_>>();
+        let exact = |v: &[Complex<f64>]| v.iter().map(|x| fraction(x.re)).collect::<Vec<_>>();
         let zero = || BigRational::from_float(0.0).unwrap();
         let entry = |i: usize, j: usize| BigRational::from_float(matrix[(i, j)]).unwrap();
         let (mut all_right, mut all_left) = (Vec::new(), Vec::new());
@@ -725,7 +713,7 @@ mod tests {
                 chain.right.iter().map(|v| exact(v)).collect(),
                 chain.left.iter().map(|v| exact(v)).collect(),
             );
-            let value = fraction(chain.value.0);
+            let value = fraction(chain.value.re);
             for k in 0..right.len() {
                 for i in 0..n {
                     let image = (0..n).fold(zero(), |sum, j| sum + entry(i, j) * &right[k][j]);

@@ -26,7 +26,7 @@ pub(crate) struct Repeated {
     /// The value.
     pub value: Complex<f64>,
     /// The same in more precision, where the block is real.
-    pub extended: Value,
+    pub extended: Complex<Extended>,
     /// How often it is a root of the characteristic polynomial.
     pub algebraic: usize,
     /// How many independent eigenvectors it has: at least one, and at most `algebraic`, out of which they are

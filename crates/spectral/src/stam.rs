@@ -22,7 +22,7 @@
 use crate::extended::Extended;
 use crate::repeated::Precision;
 use crate::{Annulus, Block, Chain, Error, LocalSystem, Matrix, PatchIndex, numbering};
-use eigenring_scheme::{DenseNet, Fan, Lattice, Scheme, Site, refine};
+use eigenring_scheme::{Complex, DenseNet, Fan, Lattice, Scheme, Site, refine};
 use eigenring_spline::uniform;
 
 /// Eigenvalues of one ring and of the points beyond within this are the same, and couplings below this are
@@ -204,29 +204,29 @@ impl Stam {
 fn real_pairs(chains: &[Chain], valence: usize) -> Result<Vec<Pair>, Error> {
     let mut pairs = Vec::new();
     for chain in chains {
-        if chain.value.1 != 0.0 {
+        if chain.value.im != 0.0 {
             return Err(Error::NotReal {
-                re: chain.value.0,
-                im: chain.value.1,
+                re: chain.value.re,
+                im: chain.value.im,
             });
         }
         if chain.right.len() > 1 {
             return Err(Error::JordanBlock {
-                value: chain.value.0,
+                value: chain.value.re,
                 fourier: chain.fourier,
                 size: chain.right.len(),
             });
         }
         let (r, l) = (&chain.right[0], &chain.left[0]);
-        let part = |f: fn(&(f64, f64)) -> f64, by: f64| -> Pair {
+        let part = |f: fn(&Complex<f64>) -> f64, by: f64| -> Pair {
             let left = l.iter().map(|x| by * f(x)).collect();
-            (chain.value.0, r.iter().map(f).collect(), left)
+            (chain.value.re, r.iter().map(f).collect(), left)
         };
         if chain.fourier.is_none_or(|k| k == 0 || 2 * k == valence) {
-            pairs.push(part(|x| x.0, 1.0));
+            pairs.push(part(|x| x.re, 1.0));
         } else {
-            pairs.push(part(|x| x.0, 2.0));
-            pairs.push(part(|x| x.1, -2.0));
+            pairs.push(part(|x| x.re, 2.0));
+            pairs.push(part(|x| x.im, -2.0));
         }
     }
     Ok(pairs)
@@ -240,15 +240,15 @@ fn continued(matrix: &Matrix<f64>, inner: Vec<Pair>) -> Result<Vec<Pair>, Error>
     // the rules beyond are regular, with dyadic weights
     for (value, chains) in Block::Real(part).lifted().vectors(Precision::Extended, 0)? {
         for (right, left) in chains {
-            if right.len() > 1 || value.1 != 0.0 {
+            if right.len() > 1 || value.im != 0.0 {
                 return Err(Error::JordanBlock {
-                    value: value.0,
+                    value: value.re,
                     fourier: None,
                     size: right.len(),
                 });
             }
-            let round = |v: &Vec<(Extended, Extended)>| v.iter().map(|x| x.0.to_f64()).collect();
-            beyond.push((value.0, round(&right[0]), round(&left[0])));
+            let round = |v: &Vec<Complex<Extended>>| v.iter().map(|x| x.re.to_f64()).collect();
+            beyond.push((value.re, round(&right[0]), round(&left[0])));
         }
     }
     let image = |r: &[f64], i: usize| -> f64 { matrix.row(size + i)[..size].iter().zip(r).map(|(a, b)| a * b).sum() };

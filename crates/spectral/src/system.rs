@@ -298,7 +298,7 @@ impl LocalSystem {
     /// # Errors
     /// [`Error::Multiplicity`] unless the eigenspace in block 1 has dimension one.
     pub fn limit_tangents(&self, lambda: f64) -> Result<[Vec<f64>; 2], Error> {
-        self.complex_tangents((lambda, 0.0))
+        self.complex_tangents(Complex::real(lambda))
     }
 
     /// The same for a simple eigenvalue of block 1 that may be complex: without mirror symmetry, blocks 1 and
@@ -310,7 +310,7 @@ impl LocalSystem {
         let modes = self.modes(1, lambda)?;
         let [mode] = modes.as_slice() else {
             return Err(Error::Multiplicity {
-                value: lambda.0.hypot(lambda.1),
+                value: lambda.modulus(),
                 fourier: 1,
                 found: modes.len(),
                 expected: 1,
