@@ -134,8 +134,8 @@ fn other_commands_say_what_compare_says() {
                     assert!((image - weight).abs() < 1e-12, "{place}");
                 }
             }
-            // a defective matrix has no such list
-            if let Ok(vectors) = Eigenvectors::new(&analysis) {
+            // a defective matrix of many points has no such list
+            if let Ok(vectors) = Eigenvectors::new(&analysis, extended.as_ref()) {
                 let listed = vectors.vectors.iter().map(|v| (v.value.re, v.value.im.abs()));
                 let repeated = analysis.spectrum.eigenvalues.iter();
                 let repeated =
