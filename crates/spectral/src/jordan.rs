@@ -524,10 +524,10 @@ mod tests {
             let scale = norm * largest(v).max(before.map_or(0.0, |b| largest(b)));
             for i in 0..n {
                 let entry = |j: usize| if transposed { matrix[(j, i)] } else { matrix[(i, j)] };
-                let image = (0..n).fold((0.0, 0.0), |s, j| (s.0 + entry(j) * v[j].0, s.1 + entry(j) * v[j].1));
-                let b = before.map_or((0.0, 0.0), |b| b[i]);
-                let re = image.0 - value.re * v[i].0 + value.im * v[i].1 - b.0;
-                let im = image.1 - value.re * v[i].1 - value.im * v[i].0 - b.1;
+                let image = (0..n).fold((0.0, 0.0), |s, j| (s.0 + entry(j) * v[j].re, s.1 + entry(j) * v[j].im));
+                let b = before.map_or(Complex::default(), |b| b[i]);
+                let re = image.0 - value.re * v[i].re + value.im * v[i].im - b.re;
+                let im = image.1 - value.re * v[i].im - value.im * v[i].re - b.im;
                 worst = worst.max(re.hypot(im) / scale);
             }
         };
@@ -553,7 +553,7 @@ mod tests {
         for (i, (_, l)) in flat(|c| &c.left).iter().enumerate() {
             for (j, (_, r)) in flat(|c| &c.right).iter().enumerate() {
                 let dot = l.iter().zip(r.iter()).fold((0.0, 0.0), |s, (l, r)| {
-                    (s.0 + l.0 * r.0 - l.1 * r.1, s.1 + l.0 * r.1 + l.1 * r.0)
+                    (s.0 + l.re * r.re - l.im * r.im, s.1 + l.re * r.im + l.im * r.re)
                 });
                 let defect = (dot.0 - f64::from(u8::from(i == j))).hypot(dot.1);
                 worst = worst.max(defect / (length(l) * length(r)).max(1.0));
