@@ -40,9 +40,12 @@ pub struct Chain {
     pub left: Vec<Vec<Complex<f64>>>,
 }
 
-/// Right and left vectors of the chains of one eigenvalue, in the unknowns of a block.
+/// The right and the left vectors of a chain.
+pub(crate) type Dual<T> = (Vec<Vec<T>>, Vec<Vec<T>>);
+
+/// The chains of one eigenvalue, in the unknowns of a block.
 pub(crate) struct Vectors<T> {
-    pub chains: Vec<(Vec<Vec<T>>, Vec<Vec<T>>)>,
+    pub chains: Vec<Dual<T>>,
 }
 
 impl LocalSystem {
@@ -156,7 +159,7 @@ fn pivot<T: Number>(vector: &[T], centre: usize) -> Option<usize> {
     order.into_iter().find(|&i| vector[i].size() > PIVOT * length)
 }
 
-type Chains = Vec<(Vec<Vec<Complex<Extended>>>, Vec<Vec<Complex<Extended>>>)>;
+type Chains = Vec<Dual<Complex<Extended>>>;
 
 impl Block<Extended> {
     /// The chains of all eigenvalues, by falling modulus.
@@ -318,7 +321,8 @@ fn nilpotent<T: Number>(matrix: &Matrix<T>, null: f64, scale: f64) -> Vec<Vec<Ve
         kernels.push(kernel(&power, n - rank));
         powers.push(power);
     }
-    let (mut chains, mut ends): (Vec<Vec<Vec<T>>>, Vec<(usize, Vec<T>)>) = (Vec::new(), Vec::new());
+    let mut chains: Vec<Vec<Vec<T>>> = Vec::new();
+    let mut ends: Vec<(usize, Vec<T>)> = Vec::new();
     for length in (1..kernels.len()).rev() {
         // what is left of the ends of candidates beside the known ones
         let end = |v: &Vec<T>, ends: &[(usize, Vec<T>)]| {

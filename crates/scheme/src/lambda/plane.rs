@@ -216,12 +216,12 @@ mod tests {
     #[test]
     fn divisors_that_vanish_are_named() {
         let plane = Plane::new(6, 0.5, 1.0).unwrap();
-        plane.check(0.25, 0.2).unwrap();
-        // C = D f3 with c1 = 1/2, c2 = -1/2, mu = 1/4: C = 1/4, D = 5/4
+        // C = D f3 at f3 = 1/5, with c1 = 1/2, c2 = -1/2, mu = 1/4: C = 1/4, D = 5/4
         for (f2, f3, named) in [
             (0.0, 0.1, "f2"),
             (1e-310, 0.1, "f2"),
-            (0.25, 0.2, ""),
+            (0.25, 0.1, ""),
+            (0.25, 0.2, "C - D f3"),
             (0.3, f64::NAN, "C - D f3"),
         ] {
             match plane.check(f2, f3) {
