@@ -101,7 +101,7 @@ fn kinks_and_active_conditions() {
         gradient: None,
     };
     let side = 0.5 - 0.3 / 2.0_f64.sqrt();
-    // along a curved condition simplices are cut off again and again: the value is met to 1e-6, x to the root
+    // along a curved condition simplices are cut off again and again: the value is met to 3e-5, x to its root
     check(&circle, &[side, side], 5e-3);
     let corner = Known {
         dimension: 2,
