@@ -484,14 +484,16 @@ mod tests {
         }
     }
 
+    /// Rules of valence 5 that a rotation leaves as they are, and no mirror.
+    const WITHOUT_MIRROR: &str = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../tests/data/cases/asymmetric-line-n5.toml"
+    );
+
     /// Without a mirror symmetry eigenvalues are complex, and each conjugate is of a block of its own.
     #[test]
     fn conjugates_are_listed_each_and_have_vectors_of_their_own() {
-        let path = concat!(
-            env!("CARGO_MANIFEST_DIR"),
-            "/../../tests/data/cases/asymmetric-line-n5.toml"
-        );
-        let (_, extended, analysis) = found(&format!("file:{path}"), 5, None);
+        let (_, extended, analysis) = found(&format!("file:{WITHOUT_MIRROR}"), 5, None);
         let eigenvalues = &analysis.spectrum.eigenvalues;
         let complex: Vec<_> = eigenvalues.iter().filter(|e| e.value.im != 0.0).collect();
         assert!(!complex.is_empty());
@@ -509,11 +511,7 @@ mod tests {
     /// `l S = lambda l` on the dense matrix for the complex vector whose parts the tangents are.
     #[test]
     fn tangents_of_a_complex_pair_are_its_left_vector() {
-        let path = concat!(
-            env!("CARGO_MANIFEST_DIR"),
-            "/../../tests/data/cases/asymmetric-line-n5.toml"
-        );
-        let (scheme, _, analysis) = found(&format!("file:{path}"), 5, None);
+        let (scheme, _, analysis) = found(&format!("file:{WITHOUT_MIRROR}"), 5, None);
         let rings = analysis.system.numbering().rings;
         let matrix = LocalMatrix::new(&scheme, Some(rings), None).unwrap().matrix;
         let eigenvalues = analysis.spectrum.eigenvalues.iter();

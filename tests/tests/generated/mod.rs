@@ -1,5 +1,7 @@
 //! Scheme files as text, from exact weights.
 
+pub mod kinds;
+
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 

@@ -25,7 +25,7 @@ use eigenring_scheme::{Definition, Number, OneRing, Shape, Spec};
 use identities::lambda_subject;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use subject::{beyond_leading, enclosed, ranged_subject};
+use subject::{family_subject, ranged_subject};
 
 /// A scheme, exactly; see the module page.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -189,49 +189,17 @@ impl Input {
         match self {
             Input::Family { spec } => {
                 let spec: Spec = spec.parse()?;
-                let exact = spec.exact(valence)?;
                 let corner = Definition::Family(spec.clone()).closed(valence)?;
-                let (beyond, affine_levels) = beyond_leading(&spec, &corner)?;
-                // enclosures of exact numbers, or, where levels have roots in them, of the formulas
-                let scheme = match &exact {
-                    Some(exact) if exact.leading().is_empty() => enclosed(exact),
-                    _ => spec.scheme(valence)?,
-                };
-                Ok(Subject {
-                    scheme,
-                    exact,
-                    identities: None,
-                    floating: false,
-                    corner: Some(corner),
-                    beyond,
-                    affine_levels,
-                    balance: Balance::default(),
-                })
+                family_subject(&spec, corner)
             }
             Input::Corner { spec, shape, steps } => {
                 let spec: Spec = spec.parse()?;
-                let definition = Definition::Family(spec.clone());
-                let corner = shape.corner(definition.centre(), *steps)?;
-                let (beyond, affine_levels) = beyond_leading(&spec, &corner)?;
+                let corner = shape.corner(Definition::Family(spec.clone()).centre(), *steps)?;
                 let found = corner.sectors().sectors();
                 if found != valence {
                     return Err(Error::Sectors { found, valence });
                 }
-                let exact = definition.exact(&corner)?;
-                let scheme = match &exact {
-                    Some(exact) if exact.leading().is_empty() => enclosed(exact),
-                    _ => definition.around(&corner)?,
-                };
-                Ok(Subject {
-                    scheme,
-                    exact,
-                    identities: None,
-                    floating: false,
-                    corner: Some(corner),
-                    beyond,
-                    affine_levels,
-                    balance: Balance::default(),
-                })
+                family_subject(&spec, corner)
             }
             &Input::Lambda { lambda, s, f2, f3 } => lambda_subject(valence, lambda, s, f2, f3),
             Input::Toml {

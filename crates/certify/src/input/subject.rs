@@ -5,7 +5,29 @@ use crate::levels::{Beyond, Tail};
 use crate::{Error, Interval};
 use eigenring_scheme::families::tension_level;
 use eigenring_scheme::user::{Balance, UserScheme};
-use eigenring_scheme::{Corner, Exact, Level, Number, Same, Scalar, Scheme, Spec, Taps};
+use eigenring_scheme::{Corner, Definition, Exact, Level, Number, Same, Scalar, Scheme, Spec, Taps};
+
+/// A family around a corner.
+pub(super) fn family_subject(spec: &Spec, corner: Corner) -> Result<Subject, Error> {
+    let definition = Definition::Family(spec.clone());
+    let (beyond, affine_levels) = beyond_leading(spec, &corner)?;
+    let exact = definition.exact(&corner)?;
+    // enclosures of exact numbers, or, where levels have roots in them, of the formulas
+    let scheme = match &exact {
+        Some(exact) if exact.leading().is_empty() => enclosed(exact),
+        _ => definition.around(&corner)?,
+    };
+    Ok(Subject {
+        scheme,
+        exact,
+        identities: None,
+        floating: false,
+        corner: Some(corner),
+        beyond,
+        affine_levels,
+        balance: Balance::default(),
+    })
+}
 
 /// The scheme for a range of a parameter: the weights are enclosures of what they are at any value in it.
 pub(super) fn ranged_subject(
@@ -73,7 +95,7 @@ pub struct Subject {
 /// What is known of a family's levels beyond the leading ones around a corner, and whether the rows of all
 /// levels of the tension scheme sum to 1. The weights of a pass, times `(1+u)^2`, are polynomials of degree 2
 /// in u; a sum of such that is `(1+u)^2` at three values of u is so at all.
-pub(super) fn beyond_leading(spec: &Spec, corner: &Corner) -> Result<(Beyond, bool), Error> {
+fn beyond_leading(spec: &Spec, corner: &Corner) -> Result<(Beyond, bool), Error> {
     let Some((order, u0)) = spec.order_and_tension() else {
         // of other families only knot intervals have levels that differ
         return Ok((Beyond::Same, false));
@@ -103,6 +125,6 @@ pub(crate) fn passes_are_affine(level: &Level<Exact>) -> bool {
 
 /// The enclosures of exact weights; nothing is known of one without value. Symmetry and degree are those of
 /// the exact scheme.
-pub(super) fn enclosed(exact: &Scheme<Exact>) -> Scheme<Interval> {
+fn enclosed(exact: &Scheme<Exact>) -> Scheme<Interval> {
     exact.map(|weight| weight.to().unwrap_or(Interval::ENTIRE))
 }

@@ -42,11 +42,6 @@ impl Cosines {
         }
     }
 
-    /// The rational part.
-    pub fn rational_part(&self) -> &BigRational {
-        &self.rational
-    }
-
     /// The cosines: `(factor, k, n)` for `factor cos(2 pi k/n)`.
     pub fn terms(&self) -> impl Iterator<Item = (&BigRational, i64, i64)> {
         self.terms.iter().map(|(&(n, k), factor)| (factor, k, n))

@@ -160,14 +160,13 @@ impl Cells<'_> {
     }
 
     /// `c` at the end of a rim edge; `None` where the part ends.
-    fn rim_centre(&self, pair: [u32; 2], end: u32, others: &HashMap<u32, Vec<[u32; 2]>>) -> Option<Row> {
+    fn rim_centre(&self, end: u32, others: &HashMap<u32, Vec<[u32; 2]>>) -> Option<Row> {
         if let Some(&corner) = self.corners.get(&end) {
             return Some(vec![(corner, 1.0)]);
         }
         let [first, second] = others.get(&end)?[..] else {
             return None;
         };
-        debug_assert!(pair == first || pair == second, "the edge is one of the two");
         Some(vec![(self.rims[&first], 0.5), (self.rims[&second], 0.5)])
     }
 
@@ -234,7 +233,7 @@ pub(crate) fn step(local: &Local, rules: &Rules, kernel: &Kernel, level: usize) 
         let pair = topology.edge_points(number);
         let Some(&on) = net.rims.get(&pair) else { continue };
         for end in pair {
-            let Some(centre) = before.rim_centre(pair, end, &others) else {
+            let Some(centre) = before.rim_centre(end, &others) else {
                 continue;
             };
             let mut row = vec![(on, u / (1.0 + u))];
@@ -322,7 +321,7 @@ impl Refined {
         along.sort_unstable();
         let mut rims = HashMap::new();
         for pair in along {
-            let centres = pair.map(|end| cells.rim_centre(pair, end, &others));
+            let centres = pair.map(|end| cells.rim_centre(end, &others));
             let [Some(first), Some(second)] = centres else {
                 continue;
             };

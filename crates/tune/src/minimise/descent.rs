@@ -20,12 +20,9 @@ const NEAR: f64 = 1e-3;
 const MAX_SIMPLICES: usize = 60;
 
 /// A relative improvement that counts, and the relative deviation of the values at the corners of a simplex
-/// at which it ends: rounding in sums over quadrature points is some 1e-13. Where a condition cuts simplices
-/// off, many small improvements lead along it.
+/// at which it ends: rounding in sums over quadrature points is some 1e-13.
 const IMPROVED: f64 = 1e-10;
 const FLAT: f64 = 1e-12;
-const IMPROVED_BOUND: f64 = 1e-12;
-const FLAT_BOUND: f64 = f64::EPSILON;
 
 /// The same deviation where it is only to be seen which of several minima is the lowest.
 const ROUGHLY: f64 = 1e-4;
@@ -47,34 +44,20 @@ pub fn descend(problem: &dyn Problem, start: &[f64]) -> Found {
 pub fn polish(problem: &dyn Problem, start: &[f64]) -> Found {
     let asked = Asked::new(problem, start);
     asked.quasi_newton(start);
-    let mut size = FIRST / 4.0;
-    for round in 0..MAX_SIMPLICES {
-        let before = asked.best.borrow().clone();
-        let bound = before.1.slacks.iter().any(|slack| !(*slack > NEAR));
-        let (improved, flat) = match bound {
-            true => (IMPROVED_BOUND, FLAT_BOUND),
-            false => (IMPROVED, FLAT),
-        };
-        asked.simplex(&before.0, size, flat, round);
-        let gain = before.1.merit() - asked.best.borrow().1.merit();
-        if gain > improved * before.1.merit().abs() {
-            continue;
-        }
-        if !bound && round > 0 {
-            break;
-        }
-        size /= 8.0;
-        if size < LAST {
-            break;
-        }
+    asked.simplices(FIRST / 4.0);
+    let bound = asked.best.borrow().1.slacks.iter().any(|slack| !(*slack > NEAR));
+    if bound {
+        // conditions cut simplices off, and along a curved one they get stuck
+        asked.along_conditions();
+        asked.simplices(FIRST / 64.0);
     }
     asked.found()
 }
 
 /// A problem, with the best of the points that were asked for.
-struct Asked<'a> {
+pub(super) struct Asked<'a> {
     problem: &'a dyn Problem,
-    best: RefCell<(Vec<f64>, Worth)>,
+    pub best: RefCell<(Vec<f64>, Worth)>,
     evaluations: Cell<usize>,
 }
 
@@ -98,37 +81,44 @@ impl<'a> Asked<'a> {
         }
     }
 
-    fn merit(&self, point: &[f64]) -> f64 {
+    /// What a point is worth; the best is kept.
+    pub fn worth(&self, point: &[f64]) -> Worth {
         let point = inside(point);
         let worth = self.problem.worth(&point);
         self.evaluations.set(self.evaluations.get() + 1);
-        let merit = worth.merit();
         let mut best = self.best.borrow_mut();
-        if merit < best.1.merit() {
-            *best = (point, worth);
+        if worth.merit() < best.1.merit() {
+            *best = (point, worth.clone());
         }
-        merit
+        worth
     }
 
-    /// One run of Nelder and Mead from a simplex at a point; its edges point to where the cube is, and in
-    /// alternate directions.
-    fn simplex(&self, point: &[f64], size: f64, flat: f64, round: usize) {
-        let dimension = point.len();
-        let mut corners = vec![point.to_vec()];
-        for axis in 0..dimension {
-            let mut corner = point.to_vec();
-            let step = if (round + axis).is_multiple_of(2) { size } else { -size };
-            let outside = !(0.0..=1.0).contains(&(corner[axis] + step));
-            corner[axis] += if outside { -step } else { step };
-            corners.push(corner);
+    fn merit(&self, point: &[f64]) -> f64 {
+        self.worth(point).merit()
+    }
+
+    /// Simplices, each begun at the best point, until they find nothing better at any size.
+    fn simplices(&self, mut size: f64) {
+        for round in 0..MAX_SIMPLICES {
+            let before = self.best.borrow().clone();
+            self.simplex(&before.0, size, FLAT, round);
+            let merit = before.1.merit();
+            if merit - self.best.borrow().1.merit() > IMPROVED * merit.abs() {
+                continue;
+            }
+            size /= 8.0;
+            if size < LAST {
+                break;
+            }
         }
+    }
+
+    /// One run of Nelder and Mead from a simplex at a point.
+    fn simplex(&self, point: &[f64], size: f64, flat: f64, round: usize) {
+        let corners = simplex_at(point, size, round);
         let flat = flat * self.best.borrow().1.merit().abs();
-        let Ok(solver) = NelderMead::new(corners).with_sd_tolerance(flat) else {
-            return;
-        };
         // what it returns is kept already; a run that fails has its best points too
-        let executor = Executor::new(Cost(self), solver).configure(|state| state.max_iters(80 * dimension as u64));
-        drop(executor.timer(false).run());
+        nelder_mead(Cost(self), corners, flat);
     }
 
     /// Quasi-Newton steps, where the problem has a smooth form; they end at the border of the cube.
@@ -145,6 +135,31 @@ impl<'a> Asked<'a> {
             self.merit(point);
         }
     }
+}
+
+/// The corners of a simplex at a point; its edges point to where the cube is, and in alternate directions.
+pub(super) fn simplex_at(point: &[f64], size: f64, round: usize) -> Vec<Vec<f64>> {
+    let mut corners = vec![point.to_vec()];
+    for axis in 0..point.len() {
+        let mut corner = point.to_vec();
+        let step = if (round + axis).is_multiple_of(2) { size } else { -size };
+        let outside = !(0.0..=1.0).contains(&(corner[axis] + step));
+        corner[axis] += if outside { -step } else { step };
+        corners.push(corner);
+    }
+    corners
+}
+
+/// One run of Nelder and Mead: the best point it has met, if it has come to its end.
+pub(super) fn nelder_mead<C>(cost: C, corners: Vec<Vec<f64>>, flat: f64) -> Option<Vec<f64>>
+where
+    C: CostFunction<Param = Vec<f64>, Output = f64>,
+{
+    let steps = 80 * (corners.len() as u64 - 1);
+    let solver = NelderMead::new(corners).with_sd_tolerance(flat).ok()?;
+    let executor = Executor::new(cost, solver).configure(|state| state.max_iters(steps));
+    let result = executor.timer(false).run().ok()?;
+    result.state().get_best_param().cloned()
 }
 
 struct Cost<'a, 'b>(&'a Asked<'b>);

@@ -12,11 +12,12 @@
 //! 2. [`swarm`]: particles (Kennedy and Eberhart 1995), of which the best is a start too;
 //! 3. from each start [`descend`]: quasi-Newton steps (L-BFGS with the line search of More and Thuente) where
 //!    the problem has a [`Problem::smooth`] form, then a simplex (Nelder and Mead 1965);
-//! 4. from the best of them [`polish`]: the same, with simplices begun anew until they find nothing better,
-//!    in ever smaller size where a condition is nearly active.
+//! 4. from the best of them [`polish`]: the same, with simplices begun anew in ever smaller size until they
+//!    find nothing better; where a condition is active, along it by an augmented Lagrangian.
 //!
 //! The solvers are those of argmin. Everything is a function of the problem and the seed.
 
+mod active;
 mod descent;
 mod sampling;
 mod swarm;
