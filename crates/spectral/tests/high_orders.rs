@@ -84,8 +84,8 @@ fn compare(wanted: impl Fn(usize, usize) -> bool) -> (usize, usize, f64) {
 /// Asks for all stored sets: `scripts/high-orders.sh`.
 const ALL: &str = "EIGENRING_ALL_ORDERS";
 
-/// The time of a block grows with the sixth power of the order, to 3 s of order 32: without the variable [`ALL`]
-/// only smaller ones are compared.
+/// The time of a block grows with the sixth power of the order, to 3 s of order 32: without the variable
+/// [`ALL`] only smaller ones are compared.
 #[test]
 fn spectra_are_those_of_many_digits() {
     let all = std::env::var_os(ALL).is_some();
