@@ -3,7 +3,7 @@
 //! An enclosure of a difference that is zero contains both signs, however sharp it is. Equalities (stencils
 //! sum to 1, `mu = lambda^2`) are therefore decided in exact numbers, of the scheme as it was written down:
 //!
-//! * [`Exact`](eigenring_scheme::Exact): a stencil weight `a + b cos(2 pi k/n)` with rational a, b: what all
+//! * [`Exact`]: a stencil weight `a + b cos(2 pi k/n)` with rational a, b: what all
 //!   rational schemes and the original Doo-Sabin weights consist of.
 //! * [`Field`]: the cyclotomic field `Q(w)`, `w = exp(2 pi i/N)`, as polynomials in w modulo the cyclotomic
 //!   polynomial. Fourier blocks of such schemes have their entries there.

@@ -25,7 +25,7 @@ const MAX_BITS: u64 = 1 << 13;
 /// orders up to 64 have less.
 const MAX_DIMENSION: usize = 32;
 
-/// The parts of an [`Exact`] number: `rational + sum of factor cos(2 pi k/n)`.
+/// The parts of an [`Exact`](crate::Exact) number: `rational + sum of factor cos(2 pi k/n)`.
 #[derive(Clone, Debug)]
 pub struct Cosines {
     pub(super) rational: BigRational,
