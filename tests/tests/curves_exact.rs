@@ -471,3 +471,55 @@ fn surfaces_of_revolution() {
     }
     comparison.finish();
 }
+
+/// Clamped curves of every order: the limit by the open-knot basis of Piegl and Tiller, and one level by
+/// de Casteljau where there is one interval.
+#[test]
+fn clamped_curves_are_nurbs_curves_with_equal_weights() {
+    let mut limits = Comparison::new("clamped limits", 1e-14);
+    let mut halves = Comparison::new("halves of Bezier curves", 1e-14);
+    for order in 2..=32_usize {
+        for intervals in [1_usize, 2, 7] {
+            let count = intervals + order - 1;
+            let points: Vec<[f64; 1]> = (0..count).map(|i| [((i * i + 3 * i) as f64).sin()]).collect();
+            let curve = Curve::new(order, 1.0, Ends::Clamped, &points).unwrap();
+            assert_eq!(curve.axis().domain(), (0.0, intervals as f64));
+            let inner = (1..intervals).map(|t| t as f64);
+            let ends = |t: f64| std::iter::repeat_n(t, order);
+            let values = ends(0.0).chain(inner).chain(ends(intervals as f64)).collect();
+            let knots = eigenring_spline::Knots::new(order - 1, values).unwrap();
+            let refined = curve.refine_levels(3).unwrap();
+            for j in 0..=16 * intervals {
+                let t = j as f64 / 16.0;
+                let basis = knots.basis(knots.span(t).unwrap(), t);
+                let terms = basis.values.iter().enumerate();
+                let expected: f64 = terms.map(|(i, value)| value * points[basis.first + i][0]).sum();
+                limits.check(format!("order {order}, t = {t}"), curve.limit(t).unwrap()[0], expected);
+                let from_level_3 = refined.limit(t).unwrap()[0];
+                limits.check(format!("order {order}, t = {t}, level 3"), from_level_3, expected);
+            }
+            let sampled = curve.sample(4).unwrap();
+            assert_eq!(sampled.len(), 4 * intervals + 1);
+            let (first, last) = (&sampled[0].1, &sampled[4 * intervals].1);
+            assert_eq!((first[0], last[0]), (points[0][0], points[count - 1][0]));
+            if intervals == 1 {
+                let mut row: Vec<f64> = points.iter().map(|p| p[0]).collect();
+                let (mut left, mut right) = (vec![row[0]], vec![row[order - 1]]);
+                while row.len() > 1 {
+                    row = row.windows(2).map(|pair| (pair[0] + pair[1]) / 2.0).collect();
+                    left.push(row[0]);
+                    right.push(row[row.len() - 1]);
+                }
+                // the middle knot is simple: of the two halves only the ends of the sequence are k-fold
+                let fine = curve.refine().unwrap();
+                let fine: Vec<f64> = fine.points().map(|p| p[0]).collect();
+                assert_eq!(fine.len(), order + 1);
+                halves.check(format!("order {order}, first"), fine[0], left[0]);
+                halves.check(format!("order {order}, second"), fine[1], left[1]);
+                halves.check(format!("order {order}, last"), fine[order], right[0]);
+            }
+        }
+    }
+    limits.finish();
+    halves.finish();
+}

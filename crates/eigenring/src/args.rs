@@ -8,6 +8,7 @@ use eigenring_atlas::cache::Cache;
 use eigenring_atlas::schemes::{self, SchemeList, SchemeName, Tuner};
 use eigenring_scheme::lambda::Bounds;
 use eigenring_scheme::{Number, Shape};
+use eigenring_spline::curve::MAX_ORDER;
 use eigenring_tune::objective::{Normalisation, Settings};
 use eigenring_tune::search::Starts;
 use eigenring_tune::sweep::Options;
@@ -30,6 +31,12 @@ pub fn finite(text: &str) -> Result<f64, String> {
 /// Reads a count, whose range is for the command to check.
 pub fn count(text: &str) -> Result<usize, String> {
     text.parse().map_err(|_| "accepted is a whole number".to_owned())
+}
+
+/// Reads an order from LEAST to [`MAX_ORDER`].
+pub fn order<const LEAST: usize>(text: &str) -> Result<usize, String> {
+    let order = text.parse().ok().filter(|order| (LEAST..=MAX_ORDER).contains(order));
+    order.ok_or_else(|| format!("accepted are {LEAST} to {MAX_ORDER}"))
 }
 
 /// What the scheme sees at its centre: a closed fan of N sectors, unless an option says otherwise.

@@ -198,10 +198,11 @@ fn bad_input_is_refused() {
     let place = Place::new();
     place.write("points.csv", POLYGON);
     for (option, accepted) in [
-        ("--order 2", "3 to 32"),
-        ("--order 33", "3 to 32"),
-        ("--order -4", "3 to 32"),
-        ("--order x", "3 to 32"),
+        ("--order 2 --u0 0.5", "u0 = 1"),
+        ("--ends clamped --u0 2", "u0 = 1"),
+        ("--order 33", "2 to 32"),
+        ("--order -4", "2 to 32"),
+        ("--order x", "2 to 32"),
         ("--u0 -1", "u0 > -1"),
         ("--u0 -1.5", "u0 > -1"),
         ("--u0 NaN", "u0 > -1"),

@@ -11,11 +11,21 @@ pub enum Error {
         /// The given tension.
         tension: f64,
     },
+    /// A tension where only polynomials are defined.
+    #[error("{what} with tension u0 = {tension}: accepted is u0 = 1")]
+    Polynomial {
+        /// What has no tension.
+        what: &'static str,
+        /// The given tension.
+        tension: f64,
+    },
     /// The order of the generalised tension scheme.
-    #[error("order {order} is out of range: accepted are 3 to {maximum}")]
+    #[error("order {order} is out of range: accepted are {minimum} to {maximum}")]
     Order {
         /// The given order, one more than the degree.
         order: usize,
+        /// The smallest accepted order.
+        minimum: usize,
         /// The largest accepted order.
         maximum: usize,
     },

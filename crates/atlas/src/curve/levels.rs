@@ -11,7 +11,7 @@ const MOST_LEVELS: u32 = 30;
 /// The number of points after some levels, as a float: it need not fit.
 pub fn count_after(axis: &Axis, levels: u32) -> f64 {
     let beyond = match axis.ends() {
-        Ends::Open => axis.order() - 1,
+        Ends::Open | Ends::Clamped => axis.order() - 1,
         Ends::Closed => 0,
     };
     f64::from(levels).exp2() * axis.intervals() as f64 + beyond as f64
@@ -90,7 +90,13 @@ mod tests {
 
     #[test]
     fn counts_are_those_of_refinement() {
-        for (order, ends) in [(3, Ends::Open), (6, Ends::Open), (5, Ends::Closed)] {
+        for (order, ends) in [
+            (3, Ends::Open),
+            (6, Ends::Open),
+            (2, Ends::Clamped),
+            (6, Ends::Clamped),
+            (5, Ends::Closed),
+        ] {
             let mut curve = Curve::new(order, 0.5, ends, &[[0.0]; 8]).unwrap();
             let axis = curve.axis().clone();
             for level in 0..5 {

@@ -196,7 +196,14 @@ fn summary(curve: &Curve, levels: usize) -> Record {
     Record::default()
         .with("order", axis.order())
         .with("u0", axis.tension().value())
-        .with("ends", if axis.ends() == Ends::Closed { "closed" } else { "open" })
+        .with(
+            "ends",
+            match axis.ends() {
+                Ends::Open => "open",
+                Ends::Clamped => "clamped",
+                Ends::Closed => "closed",
+            },
+        )
         .with("control_points", axis.count())
         .with("coordinates", curve.dimension())
         .with("from", from)

@@ -8,7 +8,7 @@ use super::picture::{size_of, visible_range};
 use crate::error::Error;
 use crate::table::Table;
 use eigenring_figure::{Colour, ColourMap, ColourScale, Figure, Panel, Stroke, Surface, View, Width, range_of};
-use eigenring_spline::curve::{Curve, Ends, Grid};
+use eigenring_spline::curve::{Curve, Ends, Grid, MIN_ORDER};
 use std::fmt::Write;
 
 /// The grid that the curve sweeps, in so many segments around the axis.
@@ -29,7 +29,8 @@ pub fn revolved(generatrix: &Curve, segments: usize) -> Result<Grid, Error> {
             });
         }
     };
-    Ok(Grid::revolution(spatial, axis.order(), segments)?)
+    // no circle has order 2
+    Ok(Grid::revolution(spatial, axis.order().max(MIN_ORDER), segments)?)
 }
 
 /// The point of a generatrix turned by a number of segments.
@@ -124,7 +125,7 @@ pub fn figure(grid: &Grid, samples: usize, width: Width, title: &str) -> Result<
         surface = surface.line(in_pieces(corners[0], corners[1]), stroke);
         surface = surface.line(in_pieces(corners[0], corners[3]), stroke);
     }
-    if grid.u().ends() == Ends::Open {
+    if grid.u().ends() != Ends::Closed {
         let columns = grid.v().count();
         let last = control.len() - columns;
         for j in 0..columns {

@@ -12,7 +12,7 @@ use eigenring_atlas::Accepted;
 use eigenring_atlas::curve::{Exact, Example, parse, refine, revolve};
 use eigenring_atlas::table::{Format, Record, Table, pretty};
 use eigenring_figure::{Figure, Width};
-use eigenring_spline::curve::{Curve, Ends, MAX_ORDER};
+use eigenring_spline::curve::{Curve, Ends};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -23,10 +23,11 @@ use std::process::ExitCode;
 /// the formats that 'eigenring spectrum --matrix' reads; - is standard input. The refined points
 /// of the last level go to standard output, or with -o into a file; columns are level, parameter, and x, y, z
 /// (x1, x2, ... beyond three). An open curve belongs to the middle of its polygon: it does not reach the
-/// first and the last control point.
+/// first and the last control point. A clamped one starts and ends in them, as a NURBS curve with k-fold end
+/// knots does.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  eigenring curve --example circle --count 4 --order 3    four points, an exact circle\n  eigenring curve --example fang-fig1 --levels 4 -o refined.csv --limit limit.csv --plot curve.svg\n  eigenring curve --example ellipse --levels 1 --format json\n  eigenring curve --example hyperbola --revolve --segments 6 --obj h.obj --plot h.png\nWith points of your own: eigenring curve points.csv --order 4 --u0 10 --closed --plot curve.png"
+    after_help = "Examples:\n  eigenring curve --example circle --count 4 --order 3    four points, an exact circle\n  eigenring curve --example fang-fig1 --levels 4 -o refined.csv --limit limit.csv --plot curve.svg\n  eigenring curve --example ellipse --levels 1 --format json\n  eigenring curve --example hyperbola --revolve --segments 6 --obj h.obj --plot h.png\nWith points of your own:\n  eigenring curve points.csv --order 4 --u0 10 --closed --plot curve.png\n  eigenring curve points.csv --order 4 --ends clamped --limit limit.csv --plot curve.svg"
 )]
 pub struct Arguments {
     /// The control points
@@ -34,18 +35,22 @@ pub struct Arguments {
     points: Option<PathBuf>,
     /// A built-in curve that its control points give exactly; the largest distance of the limit from it is
     /// reported
-    #[arg(long, value_enum, value_name = "NAME", conflicts_with_all = ["points", "closed", "open"])]
+    #[arg(long, value_enum, value_name = "NAME", conflicts_with_all = ["points", "closed", "open", "ends"])]
     example: Option<ExampleArg>,
-    /// Order k, 3 to 32: degree k-1 if u0 = 1; by default 4, or the example's own
-    #[arg(long, value_name = "K", value_parser = order, allow_negative_numbers = true)]
+    /// Order k, 2 to 32: degree k-1 if u0 = 1; by default 4, or the example's own. Order 2 is the polygon
+    /// itself, with u0 = 1
+    #[arg(long, value_name = "K", value_parser = args::order::<2>, allow_negative_numbers = true)]
     order: Option<usize>,
     /// Initial tension, u0 > -1; by default 1 (B-splines), or the example's own
     #[arg(long, value_name = "U", value_parser = args::number, allow_negative_numbers = true)]
     u0: Option<f64>,
-    /// Join the last point to the first
+    /// How the polygon ends; by default open. Clamped ends have u0 = 1
+    #[arg(long, value_enum, value_name = "ENDS", conflicts_with_all = ["closed", "open"])]
+    ends: Option<EndsArg>,
+    /// Short for --ends closed: join the last point to the first
     #[arg(long, conflicts_with = "open")]
     closed: bool,
-    /// Leave the ends open (default)
+    /// Short for --ends open
     #[arg(long)]
     open: bool,
     /// Control points of the example, up to 64
@@ -91,6 +96,17 @@ pub struct Arguments {
     format: FormatOption,
 }
 
+/// See [`Ends`].
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum EndsArg {
+    /// The curve belongs to the middle of the polygon
+    Open,
+    /// It starts in the first control point and ends in the last
+    Clamped,
+    /// The last control point is followed by the first
+    Closed,
+}
+
 /// See [`Example`].
 #[derive(Clone, Copy, Debug)]
 struct ExampleArg(Example);
@@ -112,11 +128,6 @@ impl ValueEnum for ExampleArg {
     fn to_possible_value(&self) -> Option<PossibleValue> {
         Some(PossibleValue::new(self.0.name()).help(self.0.summary()))
     }
-}
-
-fn order(text: &str) -> Result<usize, String> {
-    let order = text.parse().ok().filter(|order| (3..=MAX_ORDER).contains(order));
-    order.ok_or_else(|| format!("accepted are 3 to {MAX_ORDER}"))
 }
 
 /// Points of the limit per interval by default.
@@ -224,8 +235,13 @@ impl Arguments {
             }
         };
         let points = parse(&files::read_bytes(path)?).map_err(|error| error.in_file(path))?;
-        let ends = if self.closed { Ends::Closed } else { Ends::Open };
-        if self.closed && points.len() > 1 && points.first() == points.last() {
+        let ends = match self.ends {
+            Some(EndsArg::Clamped) => Ends::Clamped,
+            Some(EndsArg::Closed) => Ends::Closed,
+            None if self.closed => Ends::Closed,
+            Some(EndsArg::Open) | None => Ends::Open,
+        };
+        if ends == Ends::Closed && points.len() > 1 && points.first() == points.last() {
             note("the last point is the first again, which a closed polygon has twice then");
         }
         let order = self.order.unwrap_or(4);
@@ -235,8 +251,9 @@ impl Arguments {
                 count,
                 minimum,
                 maximum,
-            } if ends == Ends::Open => {
-                let accepted = Accepted::Are(format!("{minimum} to {maximum} here (open, order {order})"));
+            } if ends != Ends::Closed => {
+                let ends = if ends == Ends::Open { "open" } else { "clamped" };
+                let accepted = Accepted::Are(format!("{minimum} to {maximum} here ({ends}, order {order})"));
                 let reason = eigenring_atlas::Error::refused(format!("{count} control points"), accepted);
                 Error::from(reason.in_file(path))
             }

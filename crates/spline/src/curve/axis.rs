@@ -1,7 +1,8 @@
 //! One parameter direction of a curve or grid.
 
+use super::clamped::Clamped;
 use super::rule::{Rows, shift};
-use super::{Basis, Ends, MAX_ORDER, Tension};
+use super::{Basis, Ends, MAX_ORDER, MIN_ORDER, Tension};
 use crate::Error;
 
 /// The most numbers that a polygon or grid may hold, 1 GiB: refinement beyond that is refused and not
@@ -27,19 +28,30 @@ impl Axis {
     /// The direction of `count` control points of order `order` with initial tension `u0`.
     ///
     /// # Errors
-    /// [`Error::Order`] unless `3 <= order <= MAX_ORDER`, [`Error::Tension`] unless u0 is finite and above
-    /// -1, [`Error::ControlPoints`] for fewer than `order` points with open ends or fewer than 3 in a closed
-    /// polygon.
+    /// [`Error::Order`] unless `2 <= order <= MAX_ORDER`, [`Error::Tension`] unless u0 is finite and above
+    /// -1, [`Error::Polynomial`] unless it is 1 at order 2 and for clamped ends, [`Error::ControlPoints`] for
+    /// fewer than `order` points between two ends or fewer than 3 in a closed polygon.
     pub fn new(order: usize, u0: f64, ends: Ends, count: usize) -> Result<Self, Error> {
-        if !(3..=MAX_ORDER).contains(&order) {
+        if !(2..=MAX_ORDER).contains(&order) {
             return Err(Error::Order {
                 order,
+                minimum: 2,
                 maximum: MAX_ORDER,
             });
         }
         let tension = Tension::new(u0)?;
+        let what = match ends {
+            _ if order < MIN_ORDER => Some("order 2"),
+            Ends::Clamped => Some("clamped ends"),
+            Ends::Open | Ends::Closed => None,
+        };
+        if let Some(what) = what
+            && u0 != 1.0
+        {
+            return Err(Error::Polynomial { what, tension: u0 });
+        }
         let minimum = match ends {
-            Ends::Open => order,
+            Ends::Open | Ends::Clamped => order,
             Ends::Closed => 3,
         };
         if !(minimum..=MAX_NUMBERS).contains(&count) {
@@ -95,13 +107,16 @@ impl Axis {
 
     /// The parameter of point i: the peak of its influence.
     pub fn parameter(&self, i: usize) -> f64 {
+        if self.ends == Ends::Clamped {
+            return self.clamped().parameter(i) * self.step();
+        }
         (self.first as f64 + i as f64 + shift(self.order())) * self.step()
     }
 
     /// The number of intervals between knots on which there is a curve.
     pub fn intervals(&self) -> usize {
         match self.ends {
-            Ends::Open => self.count + 1 - self.order(),
+            Ends::Open | Ends::Clamped => self.count + 1 - self.order(),
             Ends::Closed => self.count,
         }
     }
@@ -120,15 +135,25 @@ impl Axis {
     fn start(&self) -> i64 {
         match self.ends {
             Ends::Open => self.first + (self.order() as i64 - 1) / 2,
-            Ends::Closed => 0,
+            Ends::Clamped | Ends::Closed => 0,
         }
+    }
+
+    /// The knots of clamped ends.
+    fn clamped(&self) -> Clamped {
+        Clamped::new(self.order(), self.intervals())
     }
 
     /// The k points that reach the interval after knot `start + interval`.
     fn active(&self, interval: usize) -> impl Iterator<Item = usize> + use<> {
-        let first =
-            self.start() + interval as i64 + 1 - (self.order() as i64).div_euclid(2) - (self.order() as i64 % 2);
-        let (base, count) = (first - self.first, self.count as i64);
+        let base = match self.ends {
+            Ends::Clamped => interval as i64,
+            Ends::Open | Ends::Closed => {
+                let before = (self.order() as i64).div_euclid(2) + self.order() as i64 % 2 - 1;
+                self.start() + interval as i64 - before - self.first
+            }
+        };
+        let count = self.count as i64;
         // open ends need no folding, as the intervals of the domain have all their points
         (0..self.order() as i64).map(move |j| (base + j).rem_euclid(count) as usize)
     }
@@ -139,7 +164,7 @@ impl Axis {
     /// [`Error::OutsideSpline`] if t is outside of an open domain, or not finite.
     pub fn weights(&self, t: f64) -> Result<Weights, Error> {
         let (lower, upper) = match self.ends {
-            Ends::Open => self.domain(),
+            Ends::Open | Ends::Clamped => self.domain(),
             Ends::Closed => (f64::MIN, f64::MAX),
         };
         if !(t >= lower && t <= upper) {
@@ -147,12 +172,20 @@ impl Axis {
         }
         let (from, to) = self.domain();
         let t = match self.ends {
-            Ends::Open => t,
+            Ends::Open | Ends::Clamped => t,
             Ends::Closed => t.rem_euclid(to - from),
         };
         let place = (t - from) / self.step();
         let interval = place.floor().min((self.intervals() - 1) as f64);
-        Ok(self.weights_in(interval as usize, &self.basis.values(place - interval)))
+        Ok(match self.ends {
+            Ends::Clamped => self.clamped_weights(interval as usize, place),
+            Ends::Open | Ends::Closed => self.weights_in(interval as usize, &self.basis.values(place - interval)),
+        })
+    }
+
+    /// The weights at a place counted in intervals.
+    fn clamped_weights(&self, interval: usize, place: f64) -> Weights {
+        self.weights_in(interval, &self.clamped().weights(interval, |_| place))
     }
 
     fn weights_in(&self, interval: usize, values: &[f64]) -> Weights {
@@ -171,7 +204,12 @@ impl Axis {
         let values: Vec<Vec<f64>> = (0..=per_interval).map(|j| self.basis.values(fraction(j))).collect();
         let at = |interval: usize, j: usize| {
             let t = ((self.start() + interval as i64) as f64 + fraction(j)) * self.step();
-            (t, self.weights_in(interval, &values[j]))
+            // the functions of two intervals are alike away from the ends only
+            let weights = match self.ends {
+                Ends::Clamped => self.clamped_weights(interval, interval as f64 + fraction(j)),
+                Ends::Open | Ends::Closed => self.weights_in(interval, &values[j]),
+            };
+            (t, weights)
         };
         let intervals = self.intervals();
         Ok((0..intervals)
@@ -190,7 +228,16 @@ impl Axis {
         debug_assert_eq!(values.len(), self.count * width, "as many rows as points");
         room(2 * self.count, width)?;
         let first = self.first;
-        let rows = Rows { first, width, values }.refine(self.order(), self.tension().value(), self.ends);
+        let rows = match self.ends {
+            Ends::Clamped => Rows {
+                first,
+                width,
+                values: self.clamped().refine(width, &values),
+            },
+            Ends::Open | Ends::Closed => {
+                Rows { first, width, values }.refine(self.order(), self.tension().value(), self.ends)
+            }
+        };
         let axis = Axis {
             basis: self.basis.with_tension(self.tension().next()),
             ends: self.ends,
@@ -221,9 +268,10 @@ mod tests {
 
     #[test]
     fn the_domain_is_the_same_at_every_level() {
-        for order in 3..=9 {
-            for ends in [Ends::Open, Ends::Closed] {
-                let mut axis = Axis::new(order, 0.5, ends, order + 2).unwrap();
+        for order in 2..=9 {
+            for ends in [Ends::Open, Ends::Clamped, Ends::Closed] {
+                let u0 = if order == 2 || ends == Ends::Clamped { 1.0 } else { 0.5 };
+                let mut axis = Axis::new(order, u0, ends, order + 2).unwrap();
                 let (domain, intervals) = (axis.domain(), axis.intervals());
                 let mut values: Vec<f64> = (0..order + 2).map(|i| i as f64).collect();
                 for level in 0..5 {

@@ -18,7 +18,7 @@
 //! error is below rounding ([`Basis::new`]). All terms have one sign for `u >= 0`; nothing cancels for any u
 //! near 1, where closed forms by powers and sines would.
 
-use super::{Angle, Tension};
+use super::{Angle, MIN_ORDER, Tension};
 use crate::quadrature::{Node, gauss_legendre};
 use crate::uniform;
 
@@ -38,7 +38,7 @@ pub struct Basis {
 }
 
 impl Basis {
-    /// The basis of an order of at least 3.
+    /// The basis of an order of at least 3, or of order 2 at tension 1.
     ///
     /// The n nodes are exact to degree `2n-1 >= k-3+24`. On a piece of length `2 pi/w` the best approximation
     /// of degree 24 to `exp(i w y)` or `exp(w y)` has an error of about `2 (pi/2)^25 / 25! = 1e-20`.
@@ -71,6 +71,9 @@ impl Basis {
     /// The k functions that do not vanish between two knots, at the fraction `0 <= f <= 1` of the way: the
     /// weights of k consecutive points in the limit point there.
     pub(super) fn values(&self, f: f64) -> Vec<f64> {
+        if self.order < MIN_ORDER {
+            return vec![1.0 - f, f];
+        }
         let mut values = vec![0.0; self.order];
         for (y, weight) in self.average(f) {
             // the place f - y lies in the interval before (its functions are the first k-2), in this one, or

@@ -22,11 +22,17 @@
 //! `2n - k + 1`, exactly those of twice as many intervals over the same domain: the polygon shrinks from
 //! level to level, the curve does not. `m` levels leave `2^m (n-k+1) + k-1`.
 //!
+//! A **clamped** polygon, at `u0 = 1`, has k-fold knots at its ends, starts in its first control point and ends
+//! in its last: n points make the n-k+1 intervals of `[0, n-k+1]`, point i belongs to the mean of its k-1
+//! inner knots, and a level has `2n - k + 1` points, by the Oslo algorithm. No such ends of the generalised
+//! basis are published. Order 2, the control polygon itself, exists at `u0 = 1` alone.
+//!
 //! A direction is an [`Axis`]; a [`Curve`] is an axis with points, a [`Grid`] two of them (Algorithm 1), and
 //! [`Grid::revolution`] makes one from a curve (Algorithm 2).
 
 mod axis;
 mod basis;
+mod clamped;
 mod grid;
 mod piece;
 mod polygon;
@@ -48,11 +54,16 @@ pub use tension::{Angle, Tension};
 /// of use.
 pub const MAX_ORDER: usize = 32;
 
+/// The smallest order with tension: order 2 is the control polygon.
+pub const MIN_ORDER: usize = 3;
+
 /// How a polygon ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ends {
-    /// It has a first and a last point.
+    /// It has a first and a last point, between which the curve begins and ends.
     Open,
+    /// It has a first and a last point, in which the curve starts and ends.
+    Clamped,
     /// The last point is followed by the first.
     Closed,
 }

@@ -10,7 +10,7 @@
 //!
 //! with x from the middle of the interval. The coefficients of a function are its derivatives 0 to k-1 there.
 
-use super::{Angle, Basis, MAX_ORDER, Tension};
+use super::{Angle, Basis, MAX_ORDER, MIN_ORDER, Tension};
 
 /// Values, first and second derivatives of the k functions that do not vanish between two knots, in the order
 /// of their control points; what follows the k-th is 0.
@@ -42,9 +42,10 @@ impl Piece {
     /// # Errors
     /// [`Error::Order`](crate::Error::Order).
     pub fn new(order: usize, tension: Tension) -> Result<Self, crate::Error> {
-        if !(3..=MAX_ORDER).contains(&order) {
+        if !(MIN_ORDER..=MAX_ORDER).contains(&order) {
             return Err(crate::Error::Order {
                 order,
+                minimum: MIN_ORDER,
                 maximum: MAX_ORDER,
             });
         }

@@ -148,7 +148,9 @@ mod tests {
         let line = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]];
         let curve = |order, u0, ends| Curve::new(order, u0, ends, &line);
         assert!(curve(3, 0.5, Ends::Open).is_ok());
-        assert!(matches!(curve(2, 0.5, Ends::Open), Err(Error::Order { order: 2, .. })));
+        assert!(matches!(curve(1, 1.0, Ends::Open), Err(Error::Order { order: 1, .. })));
+        assert!(matches!(curve(2, 0.5, Ends::Open), Err(Error::Polynomial { .. })));
+        assert!(matches!(curve(3, 0.5, Ends::Clamped), Err(Error::Polynomial { .. })));
         assert!(matches!(
             curve(99, 0.5, Ends::Open),
             Err(Error::Order { order: 99, .. })

@@ -1,6 +1,6 @@
 //! Surfaces of revolution: Fang, Ma and Wang, Algorithm 2.
 
-use super::{Curve, Ends, Function, Grid};
+use super::{Curve, Ends, Function, Grid, MAX_ORDER, MIN_ORDER};
 use crate::Error;
 
 impl Grid {
@@ -16,6 +16,13 @@ impl Grid {
         if generatrix.dimension() != 3 {
             return Err(Error::Revolution {
                 dimension: generatrix.dimension(),
+            });
+        }
+        if !(MIN_ORDER..=MAX_ORDER).contains(&order) {
+            return Err(Error::Order {
+                order,
+                minimum: MIN_ORDER,
+                maximum: MAX_ORDER,
             });
         }
         let u0 = (std::f64::consts::PI / segments.max(1) as f64).cos();

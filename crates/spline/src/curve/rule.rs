@@ -101,7 +101,7 @@ impl Rows {
         // numbers count from the first row, whose image is the row `scale * first`
         let source = |index: i64| match ends {
             Ends::Closed => Some(index.rem_euclid(count) as usize),
-            Ends::Open => (0..count).contains(&index).then_some(index as usize),
+            Ends::Open | Ends::Clamped => (0..count).contains(&index).then_some(index as usize),
         };
         // all classes read the row of offset 0, so that no other row than these can be made at an open end
         let (mut first, mut values) = (None, Vec::with_capacity(self.values.len() * scale as usize));

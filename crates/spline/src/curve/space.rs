@@ -191,6 +191,10 @@ impl Curve {
     /// periodic though the curve is closed; [`Error::Dimension`] without functions; [`Error::NotFinite`] if
     /// control points overflow.
     pub fn reproduce(order: usize, u0: f64, ends: Ends, count: usize, functions: &[Function]) -> Result<Curve, Error> {
+        if ends == Ends::Clamped {
+            let reason = "it has open or closed ends".to_owned();
+            return Err(Error::NotReproduced { reason });
+        }
         let axis = Axis::new(order, u0, ends, count)?;
         let space = Space::new(order, u0)?;
         let controls: Vec<Function> = functions.iter().map(|f| space.control(f)).collect::<Result<_, _>>()?;

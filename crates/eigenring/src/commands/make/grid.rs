@@ -6,7 +6,7 @@ use crate::progress::note;
 use clap::Args;
 use eigenring_atlas::curve::parse;
 use eigenring_atlas::grids::{self, Kind, Named, Shown};
-use eigenring_spline::curve::{Curve, Ends, Grid};
+use eigenring_spline::curve::{Curve, Ends, Grid, MIN_ORDER};
 use std::path::{Path, PathBuf};
 
 /// What of the grid is written.
@@ -54,10 +54,10 @@ pub struct Revolve {
     #[arg(value_name = "NAME|PROFILE.csv")]
     profile: String,
     /// Order along the profile, 3 to 32; by default 4, or the surface's own
-    #[arg(long, value_name = "K", value_parser = args::count, allow_negative_numbers = true)]
+    #[arg(long, value_name = "K", value_parser = args::order::<MIN_ORDER>, allow_negative_numbers = true)]
     order: Option<usize>,
     /// Order around the axis, 3 to 32
-    #[arg(long, value_name = "K", value_parser = args::count, allow_negative_numbers = true)]
+    #[arg(long, value_name = "K", value_parser = args::order::<MIN_ORDER>, allow_negative_numbers = true)]
     around_order: Option<usize>,
     /// Control points around the axis; the tension cos(pi/n) makes circles of them
     #[arg(long, value_name = "COUNT", value_parser = args::count, allow_negative_numbers = true)]
@@ -95,7 +95,7 @@ pub struct Sweep {
     #[arg(long, value_name = "FILE", requires = "spine")]
     scale: Option<PathBuf>,
     /// Orders along profile and spine; by default 4,4
-    #[arg(long, value_name = "K,K", value_delimiter = ',', value_parser = args::count, allow_negative_numbers = true)]
+    #[arg(long, value_name = "K,K", value_delimiter = ',', value_parser = args::order::<MIN_ORDER>, allow_negative_numbers = true)]
     orders: Vec<usize>,
     /// Initial tensions along profile and spine; by default 1,1
     #[arg(long, value_name = "U,U", value_delimiter = ',', value_parser = args::number, allow_negative_numbers = true, requires = "spine")]
@@ -122,7 +122,7 @@ pub struct Tensor {
     #[arg(value_name = "NAME|GRID.csv")]
     grid: String,
     /// Orders along i and j; by default 4,4
-    #[arg(long, value_name = "K,K", value_delimiter = ',', value_parser = args::count, allow_negative_numbers = true)]
+    #[arg(long, value_name = "K,K", value_delimiter = ',', value_parser = args::order::<MIN_ORDER>, allow_negative_numbers = true)]
     orders: Vec<usize>,
     /// Initial tensions along i and j; by default 1,1
     #[arg(long, value_name = "U,U", value_delimiter = ',', value_parser = args::number, allow_negative_numbers = true)]
