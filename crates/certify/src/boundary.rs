@@ -17,6 +17,7 @@
 //! which are linearly independent. For almost all data p, q, t are so as well, and the two limits differ.
 
 use crate::conditions::differing::Leading;
+use crate::interval::digits;
 use crate::spectral::{EnclosedSpectrum, Place, eigenvector_within};
 use crate::{Check, Interval, Statement, Witness};
 use eigenring_spectral::PatchIndex;
@@ -104,7 +105,7 @@ pub fn unseen(spectrum: &EnclosedSpectrum, leading: &Leading) -> Option<Check> {
     }
     let text = format!(
         "both modes vanish on the boundary, whose tangent shrinks like {}^m: normals there tend to another direction than inside",
-        mu.mid()
+        digits(mu.mid())
     );
     let witness = Witness::new(text)
         .with("mu", lead.value.re)

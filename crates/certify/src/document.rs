@@ -72,9 +72,12 @@ pub(crate) trait Document: Clone + Serialize + for<'de> Deserialize<'de> {
 }
 
 fn syntax(error: serde_json::Error) -> Error {
+    // the place is told apart
+    let message = error.to_string();
+    let place = format!(" at line {} column {}", error.line(), error.column());
     Error::Syntax {
-        line: error.line(),
-        column: error.column(),
-        message: error.to_string(),
+        line: error.line().max(1),
+        column: error.column().max(1),
+        message: message.strip_suffix(&place).unwrap_or(&message).to_owned(),
     }
 }

@@ -67,13 +67,13 @@ pub enum Error {
         accepted: String,
     },
     /// A certificate that is not JSON or not of this structure.
-    #[error("certificate: line {line}, column {column}: {message}")]
+    #[error("certificate: line {line}, column {column}: {message}: accepted is a file of 'eigenring verify -o'")]
     Syntax {
         /// Line, from 1.
         line: usize,
         /// Column, from 1.
         column: usize,
-        /// What was expected there.
+        /// What is wrong there.
         message: String,
     },
     /// A certificate of another format.

@@ -3,6 +3,7 @@
 use crate::boundary;
 use crate::certificate::Evidence;
 use crate::conditions::{self, Facts, Subdominant, differing};
+use crate::interval::digits;
 use crate::levels::{Pair, levels};
 use crate::map::{self, Heights, PlaneNet, Sign};
 use crate::patches::Unknown;
@@ -240,8 +241,8 @@ impl<'a> Proof<'a> {
         };
         let wrong = ranges.iter().find(|(range, _)| range.status == Status::Refuted);
         if let Some((range, sign)) = wrong {
-            let mut witness =
-                Witness::new(format!("{} is {}", text(sign), range.extreme.mid())).with("extreme", range.extreme);
+            let mut witness = Witness::new(format!("{} is {}", text(sign), digits(range.extreme.mid())))
+                .with("extreme", range.extreme);
             if let Some(place) = range.place {
                 witness = located(witness, "", place);
             }
@@ -351,7 +352,11 @@ fn regular(net: &PlaneNet<Interval>, evidence: &Evidence) -> Check {
                 .enclosing(if found.positive { smallest } else { largest })
         }
         Status::Refuted => {
-            let text = format!("the Jacobian takes the values {} and {}", smallest.mid(), largest.mid());
+            let text = format!(
+                "the Jacobian takes the values {} and {}",
+                digits(smallest.mid()),
+                digits(largest.mid())
+            );
             let mut witness = Witness::new(text).with("smallest", smallest).with("largest", largest);
             if let Some([low, high]) = found.fold {
                 witness = located(located(witness, "smallest_", low), "largest_", high);
@@ -384,7 +389,11 @@ fn corner(net: &PlaneNet<Interval>) -> Option<Check> {
     let check = match found.within {
         Status::Proven => Check::proven(NAME).margin((found.bound - found.theta).lo()),
         Status::Refuted => {
-            let text = format!("theta is {}, its bound {}", found.theta.mid(), found.bound.mid());
+            let text = format!(
+                "theta is {}, its bound {}",
+                digits(found.theta.mid()),
+                digits(found.bound.mid())
+            );
             Check::refuted(
                 NAME,
                 Witness::new(text).with("theta", found.theta).with("bound", found.bound),

@@ -7,6 +7,7 @@
 //! ones with rules that enclose all of theirs, the limit level last.
 
 use crate::input::passes_are_affine;
+use crate::interval::digits;
 use crate::{Check, Error, Interval, Statement, Subject, Witness};
 use eigenring_scheme::{Error as SchemeError, Exact, Level, Net, Scalar, Site, refine};
 
@@ -81,7 +82,7 @@ fn row_sums_of(
                 site.x,
                 site.y,
                 site.sector,
-                by.mid()
+                digits(by.mid())
             );
             return Ok(Check::refuted(NAME, Witness::new(text).with("defect", by)).enclosing(by));
         }
@@ -162,7 +163,7 @@ pub fn hull(subject: &Subject) -> Result<Check, Error> {
     let check = if weight.lo() >= 0.0 {
         Check::proven(NAME).margin(weight.lo())
     } else if weight.certainly_negative() {
-        let text = format!("the weight of control point {place} is {}", weight.mid());
+        let text = format!("the weight of control point {place} is {}", digits(weight.mid()));
         Check::refuted(NAME, Witness::new(text).with("weight", weight)).margin(weight.hi())
     } else {
         Check::undecided(

@@ -278,6 +278,7 @@ fn a_file_for_one_valence_needs_no_option() {
         "eigenvectors --scheme file:mine.toml",
         "verify --scheme file:mine.toml",
         "compare --schemes file:mine.toml,catmull-clark",
+        "plot spectrum --schemes file:mine.toml --format svg -o s.svg",
     ] {
         assert_eq!(ok(&place, line).0, ok(&place, &format!("{line} -N 5")).0, "{line}");
     }

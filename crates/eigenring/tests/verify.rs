@@ -415,7 +415,10 @@ fn files_that_are_no_certificates_are_refused() {
     ] {
         place.write("bad.json", text);
         let message = refused(&place, "--recheck bad.json");
-        assert!(message.contains("bad.json") && message.contains(says), "{message}");
+        assert!(
+            message.contains("bad.json") && message.contains(says) && message.contains("accepted"),
+            "{message}"
+        );
     }
     place.write("bytes.json", [0xff, 0xfe, 0x00]);
     assert!(refused(&place, "--recheck bytes.json").contains("bytes.json"));

@@ -16,6 +16,7 @@ use eigenring_tune::study::{LAMBDA_A, LAMBDA_M, LAMBDA_R1, paper_row};
 pub const ENTRY: FigureEntry = FigureEntry {
     valences: &[3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20],
     width: Width::One,
+    shaded: true,
     ..FigureEntry::new(
         "feasible-region",
         "featured lambdas and the feasible region against the valence",

@@ -111,6 +111,8 @@ pub struct FigureEntry {
     pub range: bool,
     /// Whether it needs the studies of its valences.
     pub studies: bool,
+    /// Whether regions are shaded by the stored certificates, if there are any.
+    pub shaded: bool,
     /// The default width.
     pub width: Width,
     /// Draws it.
@@ -153,6 +155,7 @@ impl FigureEntry {
             colours: None,
             range: false,
             studies: false,
+            shaded: false,
             width: Width::Two,
             build,
         }

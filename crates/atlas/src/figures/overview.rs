@@ -14,6 +14,7 @@ pub const ENTRY: FigureEntry = FigureEntry {
     valences: &[6],
     range: true,
     studies: true,
+    shaded: true,
     ..FigureEntry::new(
         "overview",
         "f2 and f3 against lambda, featured lambdas against the valence, natural configurations",

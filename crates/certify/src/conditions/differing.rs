@@ -21,6 +21,7 @@
 //! lambda_1 or lambda_2. Between the two squares nothing is said.
 
 use super::named;
+use crate::interval::digits;
 use crate::linear::Eigenvalue;
 use crate::spectral::{EnclosedEigenvalue, EnclosedSpectrum};
 use crate::{Check, Interval, Statement, Witness};
@@ -69,7 +70,7 @@ fn plane(spectrum: &EnclosedSpectrum, parts: &[Vec<Interval>; 2]) -> (Check, Opt
     if !other.certainly_lt(half) {
         return open(format!(
             "an eigenvalue has a modulus up to {}, and the coordinates of the plane have 1/2",
-            other.hi()
+            digits(other.hi())
         ));
     }
     let margin = (Interval::point(1.0) - other / half).lo();
@@ -108,14 +109,14 @@ fn distinct(spectrum: &EnclosedSpectrum) -> (Check, Option<Leading>) {
     if !other.certainly_lt(smaller) {
         return open(format!(
             "an eigenvalue has a modulus up to {}, the second one is {smaller}",
-            other.hi()
+            digits(other.hi())
         ));
     }
     let margin = (Interval::point(1.0) - other / smaller).lo();
     let remark = format!(
         "rules differ from sector to sector: a pair of different eigenvalues, {} and {}",
-        larger.mid(),
-        smaller.mid()
+        digits(larger.mid()),
+        digits(smaller.mid())
     );
     let check = Check::proven(SUBDOMINANT)
         .margin(margin)
@@ -147,9 +148,9 @@ pub fn curvature(spectrum: &EnclosedSpectrum, leading: &Leading, tending: bool) 
         let ratio = entry.value.modulus() / larger;
         let text = format!(
             "an eigenvalue is {} lambda^2: mu = {}, lambda = {}",
-            ratio.mid(),
-            entry.value.modulus().mid(),
-            leading.values[0].mid()
+            digits(ratio.mid()),
+            digits(entry.value.modulus().mid()),
+            digits(leading.values[0].mid())
         );
         let witness = named(Witness::new(text), entry)
             .with("ratio", ratio)
@@ -162,7 +163,7 @@ pub fn curvature(spectrum: &EnclosedSpectrum, leading: &Leading, tending: bool) 
     if !modulus.certainly_lt(smaller) {
         let text = format!(
             "an eigenvalue has a modulus up to {}, the square of the smaller subdominant one is {smaller}",
-            modulus.hi()
+            digits(modulus.hi())
         );
         return Check::undecided(NAME, text);
     }

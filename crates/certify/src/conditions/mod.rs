@@ -39,6 +39,7 @@ mod second_order;
 pub use facts::Facts;
 pub use second_order::second_order;
 
+use crate::interval::digits;
 use crate::spectral::{EnclosedEigenvalue, EnclosedSpectrum};
 use crate::{Check, Interval, Statement, Subject, Witness};
 
@@ -63,7 +64,7 @@ pub fn dominant(spectrum: &EnclosedSpectrum) -> Check {
         let text = format!(
             "an eigenvalue of block {} has modulus {}",
             entry.index,
-            entry.value.modulus().mid()
+            digits(entry.value.modulus().mid())
         );
         return Check::refuted(NAME, named(Witness::new(text), entry));
     }
@@ -76,7 +77,7 @@ pub fn dominant(spectrum: &EnclosedSpectrum) -> Check {
     } else {
         Check::undecided(
             NAME,
-            format!("block {index}: an eigenvalue of modulus up to {}", modulus.hi()),
+            format!("block {index}: an eigenvalue of modulus up to {}", digits(modulus.hi())),
         )
     }
 }
@@ -135,7 +136,7 @@ pub fn subdominant(subject: &Subject, spectrum: &EnclosedSpectrum, facts: &mut F
         let text = format!(
             "an eigenvalue of block {} has modulus {}, block 1 has none above {reach}",
             entry.index,
-            entry.value.modulus().mid()
+            digits(entry.value.modulus().mid())
         );
         let n = subject.scheme.valence();
         // a pair of index k, simple and ahead of everything else, belongs to a map that winds k times round
@@ -164,7 +165,10 @@ pub fn subdominant(subject: &Subject, spectrum: &EnclosedSpectrum, facts: &mut F
         );
     let leads_block = within.map(Interval::hi).fold(0.0, f64::max) < modulus.lo();
     if leads_block && leading.value.is_real() && value.certainly_negative() {
-        let text = format!("the largest eigenvalue of block 1 is {}, not positive", value.mid());
+        let text = format!(
+            "the largest eigenvalue of block 1 is {}, not positive",
+            digits(value.mid())
+        );
         if spectrum.leads(leading) && spectrum.sees(leading) {
             return refuted(named(Witness::new(text), leading));
         }
@@ -173,8 +177,8 @@ pub fn subdominant(subject: &Subject, spectrum: &EnclosedSpectrum, facts: &mut F
     if leading.value.im.certainly_nonzero() {
         return open(format!(
             "the largest eigenvalues of block 1 are {} +- {} i: the criterion is for real ones",
-            leading.value.re.mid(),
-            leading.value.im.mid().abs()
+            digits(leading.value.re.mid()),
+            digits(leading.value.im.mid().abs())
         ));
     }
     if !leading.value.is_real() || !value.certainly_positive() {
@@ -190,12 +194,12 @@ pub fn subdominant(subject: &Subject, spectrum: &EnclosedSpectrum, facts: &mut F
         if index == 1 && enclosed && facts.repeated(spectrum, leading) == Some(true) {
             return open(format!(
                 "{} is a repeated eigenvalue of block 1, which outer rings share: the criterion is for simple ones",
-                value.mid()
+                digits(value.mid())
             ));
         }
         return open(format!(
             "block {index} has an eigenvalue of modulus up to {}, lambda is {value}",
-            other.hi()
+            digits(other.hi())
         ));
     }
     let margin = (Interval::point(1.0) - other / value).lo();

@@ -3,6 +3,7 @@
 
 use super::facts::{Facts, within};
 use super::{Subdominant, named};
+use crate::interval::digits;
 use crate::linear::Eigenvalue;
 use crate::spectral::{EnclosedEigenvalue, EnclosedSpectrum};
 use crate::{Check, Interval, Statement, Subject, Witness};
@@ -132,9 +133,9 @@ fn bounded(spectrum: &EnclosedSpectrum, lambda: &Subdominant, squares: &Squares)
         let text = format!(
             "an eigenvalue of block {} is {} lambda^2: mu = {}, lambda = {}",
             entry.index,
-            ratio(entry).mid(),
-            entry.value.modulus().mid(),
-            lambda.value.mid()
+            digits(ratio(entry).mid()),
+            digits(entry.value.modulus().mid()),
+            digits(lambda.value.mid())
         );
         let witness = named(Witness::new(text), entry)
             .with("ratio", ratio(entry))
@@ -148,7 +149,7 @@ fn bounded(spectrum: &EnclosedSpectrum, lambda: &Subdominant, squares: &Squares)
     if !modulus.certainly_lt(square) {
         let text = format!(
             "block {index} has an eigenvalue of modulus up to {}, lambda^2 is {square}: where they are equal a Jordan block may decide",
-            modulus.hi()
+            digits(modulus.hi())
         );
         return Check::undecided(NAME, text);
     }
@@ -181,7 +182,7 @@ fn non_degenerate(valence: usize, spectrum: &EnclosedSpectrum, lambda: &Subdomin
                 .get(wanted - 1)
                 .map_or(Interval::point(0.0), |entry| entry.value.re);
             let ratio = nearest / square;
-            let text = format!("block {index}: mu is {} lambda^2", ratio.mid());
+            let text = format!("block {index}: mu is {} lambda^2", digits(ratio.mid()));
             let witness = Witness::new(text).with("mu", nearest).with("ratio", ratio);
             return Check::refuted(NAME, witness).enclosing(ratio);
         }
@@ -196,7 +197,7 @@ fn non_degenerate(valence: usize, spectrum: &EnclosedSpectrum, lambda: &Subdomin
             let mu = other.map_or(Interval::point(0.0), |entry| entry.value.re);
             let text = format!(
                 "block {index}: a second-order eigenvalue is {} lambda^2",
-                (mu / square).mid()
+                digits((mu / square).mid())
             );
             let witness = Witness::new(text).with("mu", mu).with("ratio", mu / square);
             return Check::refuted(NAME, witness).enclosing(mu / square);
@@ -292,8 +293,8 @@ fn strict(subject: &Subject, spectrum: &EnclosedSpectrum, lambda: &Subdominant, 
         let text = format!(
             "an eigenvalue of block {} has modulus {}, mu is {}",
             entry.index,
-            entry.value.modulus().mid(),
-            mu.mid()
+            digits(entry.value.modulus().mid()),
+            digits(mu.mid())
         );
         return Check::refuted(NAME, named(Witness::new(text), entry).with("mu", mu))
             .enclosing(entry.value.modulus() / mu);
@@ -303,7 +304,7 @@ fn strict(subject: &Subject, spectrum: &EnclosedSpectrum, lambda: &Subdominant, 
             NAME,
             format!(
                 "block {index} has an eigenvalue of modulus up to {}, mu is {mu}",
-                other.hi()
+                digits(other.hi())
             ),
         );
     }

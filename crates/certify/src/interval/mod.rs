@@ -303,9 +303,29 @@ impl fmt::Display for Interval {
     /// The bounds with the shortest digits that read back as the same doubles.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.is_point() {
-            write!(f, "{}", self.lo)
+            write!(f, "{}", digits(self.lo))
         } else {
-            write!(f, "[{}, {}]", self.lo, self.hi)
+            write!(f, "[{}, {}]", digits(self.lo), digits(self.hi))
+        }
+    }
+}
+
+/// A number for people.
+pub(crate) struct Digits(f64);
+
+/// See [`Digits`].
+pub(crate) fn digits(value: f64) -> Digits {
+    Digits(value)
+}
+
+impl fmt::Display for Digits {
+    /// The shortest digits that read back as the same double, with an exponent where most of them would be
+    /// zeros.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0.abs() {
+            0.0 => write!(f, "0"),
+            size if (1e-9..1e16).contains(&size) => write!(f, "{}", self.0),
+            _ => write!(f, "{:e}", self.0),
         }
     }
 }

@@ -17,6 +17,7 @@ use eigenring_atlas::schemes::{SchemeName, Tuner};
 use eigenring_atlas::table::{Format, WIDTH};
 use eigenring_figure::{Figure, Width};
 use eigenring_scheme::Spec;
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::str::FromStr;
@@ -189,6 +190,9 @@ impl Arguments {
         if let Some(remark) = &studies.remark {
             note(remark);
         }
+        if studies.ranges.is_none() && entries.iter().any(|entry| entry.shaded) {
+            note("no stored certificates are found, so no region is shaded as proven: --results names their folder");
+        }
         let mut written = Written::default();
         let drawn: Vec<Files> = drawn.into_iter().flatten().collect();
         match (file, drawn.as_slice()) {
@@ -342,11 +346,16 @@ impl Arguments {
         Ok(())
     }
 
-    fn valences<'a>(&'a self, entry: &'a FigureEntry) -> Result<&'a [usize], Error> {
-        match &self.valences.valences {
-            Some(valences) if !entry.valences.is_empty() => valences.closed(),
-            _ => Ok(entry.valences),
+    /// The valences of a figure: given, else the one that a scheme file is for, else the figure's own.
+    fn valences<'a>(&'a self, entry: &'a FigureEntry) -> Result<Cow<'a, [usize]>, Error> {
+        if entry.valences.is_empty() {
+            return Ok(Cow::Borrowed(&[]));
         }
+        Ok(match (&self.valences.valences, self.schemes.only_valence()?) {
+            (Some(valences), _) => Cow::Borrowed(valences.closed()?),
+            (None, Some(only)) => Cow::Owned(vec![only]),
+            (None, None) => Cow::Borrowed(entry.valences),
+        })
     }
 
     /// The schemes of a figure that takes them: given by name, as members of the lambda-scheme, or its own.
@@ -373,7 +382,7 @@ impl Arguments {
     fn studies(&self, entries: &[&FigureEntry]) -> Result<Studies, Error> {
         let mut needed: Vec<usize> = Vec::new();
         for entry in entries.iter().filter(|entry| entry.studies) {
-            needed.extend(self.valences(entry)?);
+            needed.extend(self.valences(entry)?.iter());
         }
         let default = Path::new(RESULTS);
         let folder = match &self.results {
@@ -391,11 +400,11 @@ impl Arguments {
         studies: &Studies,
         tuner: &Tuner<'_>,
     ) -> Result<Vec<Files>, Error> {
-        let schemes = self.schemes(entry)?;
+        let (schemes, valences) = (self.schemes(entry)?, self.valences(entry)?);
         let inputs = Inputs {
             schemes: &schemes,
             colours: entry.colours.map(|default| self.colours.unwrap_or(default)),
-            valences: self.valences(entry)?,
+            valences: &valences,
             lambdas: match entry.lambdas {
                 [] => &[],
                 defaults if self.lambda.is_empty() => defaults,
