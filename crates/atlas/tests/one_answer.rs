@@ -183,6 +183,7 @@ fn tables_of_figures_say_what_spectra_say() {
             colours: entry.colours,
             range: (0.15, 0.9),
             width: entry.width,
+            sweep: None,
             studies: &studies,
             tuner: &tuner,
         };

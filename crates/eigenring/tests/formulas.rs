@@ -131,6 +131,30 @@ fn a_sweep_is_its_single_spectra() {
         let name = format!("file:my.toml,a={}", row["value"]);
         assert_eq!(row["eigenvalues"], spectrum(&place, &["--scheme", &name]));
     }
+    // the figure's data are the same eigenvalues
+    place.ok(&[
+        "plot",
+        "spectrum",
+        "--schemes",
+        "file:my.toml",
+        "--sweep",
+        "a=1..2:4",
+        "-N",
+        "7",
+        "--out",
+        "figures",
+    ]);
+    let drawn = std::fs::read_to_string(place.path().join("figures/spectrum.csv")).unwrap();
+    let mut drawn = drawn.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>());
+    for row in rows {
+        for eigenvalue in row["eigenvalues"].as_array().unwrap() {
+            let line = drawn.next().unwrap();
+            assert_eq!((line[1], line[2].parse().ok()), ("7", row["value"].as_f64()));
+            assert_eq!(line[4].parse().ok(), eigenvalue["re"].as_f64());
+            assert_eq!(line[3].parse().ok(), eigenvalue["fourier"].as_u64());
+        }
+    }
+    assert!(drawn.next().is_none());
     let table = place.ok(&[
         "spectrum",
         "--scheme",

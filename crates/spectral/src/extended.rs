@@ -308,6 +308,9 @@ impl Scalar for Extended {
     }
 
     fn rational(value: &BigRational) -> Self {
+        if let (Ok(p), Ok(q)) = (i64::try_from(value.numer()), i64::try_from(value.denom())) {
+            return Self::ratio(p, q);
+        }
         // sums of doubles, each the nearest to what is left
         let (mut sum, mut rest) = (Self::default(), value.clone());
         for _ in 0..6 {
@@ -397,6 +400,10 @@ mod tests {
         assert_eq!(Extended::ratio(-7, 2), -Extended::exact(3.5));
         let value = BigRational::new((-1).into(), 3.into());
         assert!(error(Extended::rational(&value), -third) < 4.0);
+        let long = BigRational::new((-1_i128 << 90).into(), (3_i128 << 90).into())
+            + BigRational::new(1.into(), (7_i128 << 80).into());
+        let beside = Extended::ratio(1, 7).scaled(-80);
+        assert!(error(Extended::rational(&long), beside - third) < 8.0);
     }
 
     /// Against rational numbers of any size.

@@ -167,6 +167,7 @@ mod tests {
             colours: None,
             range: (0.15, 0.9),
             width: Width::One,
+            sweep: None,
             studies: &studies,
             tuner: &Tuner::default(),
         };

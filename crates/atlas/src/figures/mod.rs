@@ -7,6 +7,7 @@
 //! [`Inputs`] to [`Drawing`]s. Drawings are pure functions of their inputs; the command writes them. Each
 //! drawing comes with the tables of the numbers it shows, which are what tests compare.
 
+mod along;
 mod certificates;
 mod characteristic;
 mod characteristic_meshes;
@@ -35,6 +36,7 @@ pub use studies::Studies;
 
 use crate::error::Error;
 use crate::schemes::{SchemeName, Tuner};
+use crate::sweep::Sweep;
 use crate::table::Table;
 use eigenring_figure::{Figure, Width};
 use eigenring_scheme::did_you_mean;
@@ -76,6 +78,8 @@ pub struct Inputs<'a> {
     pub range: (f64, f64),
     /// The width of the picture.
     pub width: Width,
+    /// The parameter of scheme files along which the figure is drawn, if it is one.
+    pub sweep: Option<&'a Sweep>,
     /// Samples and splines of the lambda-scheme.
     pub studies: &'a Studies,
     /// Where members of the lambda-scheme that are not tabulated come from.
@@ -109,6 +113,8 @@ pub struct FigureEntry {
     pub colours: Option<(f64, f64)>,
     /// Whether a range of lambda can be chosen.
     pub range: bool,
+    /// Whether it can be drawn along a parameter of scheme files.
+    pub sweep: bool,
     /// Whether it needs the studies of its valences.
     pub studies: bool,
     /// Whether regions are shaded by the stored certificates, if there are any.
@@ -154,6 +160,7 @@ impl FigureEntry {
             schemes: None,
             colours: None,
             range: false,
+            sweep: false,
             studies: false,
             shaded: false,
             width: Width::Two,

@@ -103,6 +103,7 @@ mod tests {
             colours: None,
             range: (0.15, 0.9),
             width: Width::Two,
+            sweep: None,
             studies: &studies,
             tuner: &Tuner::default(),
         };

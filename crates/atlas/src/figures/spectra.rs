@@ -8,7 +8,7 @@
 
 use super::grid::Grid;
 use super::subject::{Subject, chosen};
-use super::{Drawing, FigureEntry, Inputs};
+use super::{Drawing, FigureEntry, Inputs, along};
 use crate::error::Error;
 use crate::spectrum::Analysis;
 use crate::table::Table;
@@ -19,6 +19,7 @@ use eigenring_spectral::{Eigenvalue, Spectrum};
 pub const ENTRY: FigureEntry = FigureEntry {
     valences: &[5, 8],
     schemes: Some(&["catmull-clark", "doo-sabin", "tension:order=8", "lambda:optimal"]),
+    sweep: true,
     ..FigureEntry::new(
         "spectrum",
         "moduli of the eigenvalues by Fourier index; columns: valences, rows: schemes",
@@ -70,6 +71,9 @@ fn kind(eigenvalue: &Eigenvalue) -> Kind {
 }
 
 fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
+    if let Some(sweep) = inputs.sweep {
+        return along::build(&ENTRY, inputs, sweep);
+    }
     let grid = Grid::new(
         inputs.schemes.len(),
         inputs.valences.len(),
@@ -203,6 +207,7 @@ mod tests {
             colours: None,
             range: (0.15, 0.9),
             width: Width::One,
+            sweep: None,
             studies: &studies,
             tuner: &tuner,
         };

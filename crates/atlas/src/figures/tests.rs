@@ -39,6 +39,7 @@ fn draw(entry: &FigureEntry, asked: &Asked<'_>, studies: &Studies) -> Vec<Drawin
         lambdas: entry.lambdas,
         range: asked.range,
         width: asked.width,
+        sweep: None,
         studies,
         tuner: &Tuner::default(),
     };

@@ -21,6 +21,7 @@ fn draw(entry: &FigureEntry, topic: &Topic, valences: &[usize]) -> Result<Vec<Dr
         colours: entry.colours,
         range: (0.0, 1.0),
         width: entry.width,
+        sweep: None,
         studies: &Studies::load(None, &[], &Silent)?,
         tuner: topic.tuner,
     };

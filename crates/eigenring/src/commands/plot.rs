@@ -14,6 +14,7 @@ use eigenring_atlas::files::is_replaced;
 use eigenring_atlas::progress::{Silent, each};
 use eigenring_atlas::results::{EVERYTHING, FOLDER};
 use eigenring_atlas::schemes::{SchemeName, Tuner};
+use eigenring_atlas::sweep::Sweep;
 use eigenring_atlas::table::{Format, WIDTH};
 use eigenring_figure::{Figure, Width};
 use eigenring_scheme::Spec;
@@ -28,7 +29,7 @@ use std::str::FromStr;
 /// names of the files that were written are printed.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  eigenring plot --list\n  eigenring plot --all\n  eigenring plot samples --valences 5,8 --size one\n  eigenring plot characteristic-map --schemes catmull-clark,lambda:optimal --valences 5,8\n  eigenring plot stencils --valences 3..20 --range 0.3..0.7 --format svg --out /tmp/figures\n  eigenring plot overview -o overview.pdf"
+    after_help = "Examples:\n  eigenring plot --list\n  eigenring plot --all\n  eigenring plot samples --valences 5,8 --size one\n  eigenring plot characteristic-map --schemes catmull-clark,lambda:optimal --valences 5,8\n  eigenring plot stencils --valences 3..20 --range 0.3..0.7 --format svg --out /tmp/figures\n  eigenring plot spectrum --schemes file:my.toml --sweep a=1..2:100 -N 5,8\n  eigenring plot overview -o overview.pdf"
 )]
 pub struct Arguments {
     /// Names of figures; see --list
@@ -64,6 +65,14 @@ pub struct Arguments {
     range: Option<Interval>,
     #[command(flatten)]
     schemes: Schemes,
+    /// With figure spectrum: along a parameter of scheme files, from A to B in a number of steps
+    #[arg(
+        long,
+        value_name = "NAME=A..B:STEPS",
+        allow_hyphen_values = true,
+        conflicts_with = "all"
+    )]
+    sweep: Option<Sweep>,
     /// The range of values that colours show; by default each figure's own
     #[arg(long, value_name = "A..B", value_parser = colours, allow_hyphen_values = true)]
     colours: Option<(f64, f64)>,
@@ -300,10 +309,10 @@ impl Arguments {
         if self.dpi.is_some() && !self.formats()?.contains(&PictureFormat::Png) {
             return Err(Error::usage("--dpi has no meaning without PNG files", "--format png"));
         }
-        if self.results.is_some() && !entries.iter().any(|entry| entry.studies) {
+        if self.results.is_some() && !entries.iter().any(|entry| entry.studies || entry.shaded) {
             let names: Vec<&str> = FIGURES
                 .iter()
-                .filter(|entry| entry.studies)
+                .filter(|entry| entry.studies || entry.shaded)
                 .map(|entry| entry.name)
                 .collect();
             return Err(Error::usage(
@@ -329,6 +338,9 @@ impl Arguments {
             };
             if self.valences.valences.is_some() && entry.valences.is_empty() {
                 return refuse("--valences", |entry| !entry.valences.is_empty());
+            }
+            if self.sweep.is_some() && !entry.sweep {
+                return refuse("--sweep", |entry| entry.sweep);
             }
             if self.range.is_some() && !entry.range {
                 return refuse("--range", |entry| entry.range);
@@ -416,6 +428,7 @@ impl Arguments {
                 Some(Size::Two) => Width::Two,
                 None => entry.width,
             },
+            sweep: self.sweep.as_ref(),
             studies,
             tuner,
         };
