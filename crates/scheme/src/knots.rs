@@ -1,19 +1,10 @@
 //! The rules of cubic B-splines with knot intervals, across one spoke.
 //!
-//! Points `P_j` of a line have intervals `d_j` between `P_j` and `P_(j+1)`. Halving all intervals makes a
-//! point on each edge and one beside each old point (Sederberg, Zheng, Sewell and Sabin 1998; Boehm's
-//! insertion of a knot in the middle of each interval):
-//!
-//! ```text
-//! E_j = ((d_j + 2 d_(j+1)) P_j + (d_j + 2 d_(j-1)) P_(j+1)) / (2 (d_(j-1) + d_j + d_(j+1)))
-//! V_j = P_j / 2 + (d_j E_(j-1) + d_(j-1) E_j) / (2 (d_(j-1) + d_j))
-//!
-//! all three intervals of E_j zero: the mean;   both of V_j zero: P_j
-//! ```
-//!
-//! Zero intervals, which are multiple knots, need nothing else.
+//! The univariate rules are those of [`eigenring_spline::intervals`]; here they become a [`Line`], whose taps
+//! differ near the spoke.
 
 use crate::{Line, Scalar, Taps};
+use eigenring_spline::intervals;
 use std::collections::BTreeMap;
 
 /// The intervals on both sides of a spoke, from the first edge on; the last one holds for all further edges.
@@ -41,29 +32,13 @@ impl Intervals {
     }
 
     fn edge_point<S: Scalar>(&self, j: i32) -> BTreeMap<i32, S> {
-        let [a, b, c] = [-1, 0, 1].map(|by| S::exact(self.edge(j + by)));
-        if [-1, 0, 1].iter().all(|by| self.edge(j + by) == 0.0) {
-            return BTreeMap::from([(j, S::ratio(1, 2)), (j + 1, S::ratio(1, 2))]);
-        }
-        let two = || S::ratio(2, 1);
-        let sum = two() * (a.clone() + b.clone() + c.clone());
-        let near = (b.clone() + two() * c) / sum.clone();
-        BTreeMap::from([(j, near), (j + 1, (b + two() * a) / sum)])
+        let weights = intervals::edge([-1, 0, 1].map(|by| self.edge(j + by)));
+        (j..).zip(weights).collect()
     }
 
     fn vertex_point<S: Scalar>(&self, j: i32) -> BTreeMap<i32, S> {
-        let [before, after] = [self.edge(j - 1), self.edge(j)];
-        if before + after == 0.0 {
-            return BTreeMap::from([(j, S::one())]);
-        }
-        let sum = S::ratio(2, 1) * (S::exact(before) + S::exact(after));
-        let mut point = BTreeMap::from([(j, S::ratio(1, 2))]);
-        for (edge, weight) in [(j - 1, after), (j, before)] {
-            let weight = S::exact(weight) / sum.clone();
-            for (index, part) in self.edge_point::<S>(edge) {
-                *point.entry(index).or_insert_with(S::zero) += weight.clone() * part;
-            }
-        }
+        let weights = intervals::vertex::<S>([-2, -1, 0, 1].map(|by| self.edge(j + by)));
+        let mut point: BTreeMap<i32, S> = (j - 1..).zip(weights).collect();
         point.retain(|_, weight| !weight.same(&S::zero()));
         point
     }

@@ -35,6 +35,7 @@ mod complex;
 pub mod curve;
 mod dual;
 mod error;
+pub mod intervals;
 mod knots;
 mod patch;
 pub mod quadrature;

@@ -59,6 +59,7 @@ pub use limit::{Kind, Place, Sample, Surface};
 pub use mesh::Mesh;
 /// Points are nalgebra's.
 pub use nalgebra::{Point3, Vector3};
+pub use refine::quads;
 pub use refiner::Refiner;
 pub use rules::Rules;
 pub use topology::{FanAt, NONE, Topology};

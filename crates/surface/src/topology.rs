@@ -55,8 +55,9 @@ impl Topology {
         }
     }
 
-    /// The half-edges of a mesh that is known to be without defects.
-    pub(crate) fn unchecked(mesh: &Mesh) -> Self {
+    /// The half-edges of a mesh that is known to be without defects, as one that was made from such is; of
+    /// another one they make no sense.
+    pub fn unchecked(mesh: &Mesh) -> Self {
         let (starts, origins) = (mesh.starts().to_vec(), mesh.corners().to_vec());
         let mut faces = Vec::with_capacity(origins.len());
         for face in 0..mesh.face_count() {

@@ -4,15 +4,9 @@
 //! univariate ones (Sederberg, Zheng, Sewell and Sabin 1998, Eqs. 1 to 3). After a level the first two edges
 //! of a spoke have the same interval, so that the rules change for two levels and are the same from then on.
 //! Around the n-gon of HNUSS (Li, Wei and Zhang 2019, section 4.3) points are doubled along the spokes, and
-//! the corners of the n-gon have the rule
-//!
-//! ```text
-//! P_i'    = (P_i + C)/2 + alpha_i (-n P_i + sum_j (1 + 2 cos(2 pi (j-i)/n)) P_j),     C = sum_i beta_i P_i
-//! alpha_i = (1/n) d_i/(d_i + d_(i+2)) d_(i+1)/(d_(i+1) + d_(i-1))
-//! beta_i  = [(d_(i-1) + d_(i+3)) d_(i+2) + (d_(i-2) + d_(i+2)) d_(i-1)]
-//!           / sum_j (d_j + d_(j+2)) (d_(j-1) + d_(j+3))
-//! ```
+//! the corners of the n-gon have the rule of [`SplitFace`].
 
+use super::SplitFace;
 use super::doo_sabin::CORNER;
 use crate::knots::Intervals;
 use crate::{Centre, Corner, Error, Fan, Lattice, Level, Pass, Scalar, Scheme, Stencil};
@@ -105,40 +99,11 @@ fn four_sectors<S: Scalar>(intervals: &[Vec<f64>]) -> Result<Level<S>, Error> {
 fn split_face<S: Scalar>(intervals: &[Vec<f64>]) -> Result<Level<S>, Error> {
     let n = intervals.len();
     let fan = Fan::Closed(n);
-    let d = |i: usize| intervals[i % n][0];
-    let s = |value: f64| S::exact(value);
-    // products and quotients of doubles in the scalar, so that enclosures enclose
-    let ratio = |own: f64, other: f64, spokes: [usize; 2]| {
-        if own + other == 0.0 {
-            return Err(Error::ZeroIntervals { spokes });
-        }
-        Ok(s(own) / (s(own) + s(other)))
-    };
-    let total = (0..n).fold(S::zero(), |sum, j| {
-        sum + (s(d(j)) + s(d(j + 2))) * (s(d(j + n - 1)) + s(d(j + 3)))
-    });
-    if (0..n).all(|j| (d(j) + d(j + 2)) * (d(j + n - 1) + d(j + 3)) == 0.0) {
-        return Err(Error::ZeroIntervals { spokes: [0, 2] });
-    }
-    let beta = |i: usize| {
-        let ahead = (s(d(i + n - 1)) + s(d(i + 3))) * s(d(i + 2));
-        let behind = (s(d(i + n - 2)) + s(d(i + 2))) * s(d(i + n - 1));
-        (ahead + behind) / total.clone()
-    };
+    let first: Vec<f64> = intervals.iter().map(|list| list[0]).collect();
+    let face = SplitFace::new(&first)?;
     let mut pass = Pass::by_sector(Lattice::Face, Lattice::Face, lines(intervals, true));
-    let turns = n as i64;
     for i in 0..n {
-        let along = ratio(d(i), d(i + 2), [i, (i + 2) % n])?;
-        let next = ratio(d(i + 1), d(i + n - 1), [(i + 1) % n, (i + n - 1) % n])?;
-        // n alpha_i
-        let alpha = along * next;
-        let terms = (0..n).map(|j| {
-            let cosine = S::cos_turn(j as i64 - i as i64, turns);
-            let mode = (S::one() + S::ratio(2, 1) * cosine) / S::ratio(turns, 1);
-            let own = if i == j { S::one() } else { S::zero() };
-            let half = S::ratio(1, 2) * (own.clone() + beta(j));
-            (CORNER.rotated(fan, j as i64), half + alpha.clone() * (mode - own))
-        });
+        let terms = (0..n).map(|j| (CORNER.rotated(fan, j as i64), face.weight(i, j)));
         let stencil = terms.fold(Stencil::new(), |stencil, (site, weight)| stencil.with(site, weight));
         pass = pass.with(CORNER.rotated(fan, i as i64), stencil);
     }

@@ -5,12 +5,14 @@ mod doo_sabin;
 mod features;
 mod half_cell;
 mod intervals;
+mod split_face;
 mod tension;
 
 pub use catmull_clark::{catmull_clark, catmull_clark_weights};
 pub use doo_sabin::doo_sabin;
 pub use half_cell::half_cell;
 pub use intervals::with_intervals;
+pub use split_face::SplitFace;
 pub(crate) use tension::tensions_from;
 pub use tension::{MAX_ORDER, smoothing_weights, tension, tension_at};
 

@@ -1,0 +1,25 @@
+//! Subdivision surfaces with knot intervals.
+
+pub mod eigen_polyhedron;
+mod error;
+mod hybrid;
+mod intervals;
+mod net;
+mod primal;
+mod refine;
+mod row;
+pub mod first_level;
+pub mod ngon;
+pub mod nurss;
+mod spokes;
+
+pub use eigen_polyhedron::EigenPolyhedron;
+pub use error::{Error, MAX_SPOKES, Marked};
+pub use first_level::FirstLevel;
+pub use hybrid::{Converted, HybridNet, Outside};
+pub use intervals::KnotIntervals;
+pub use net::Net;
+pub use ngon::NGon;
+pub use primal::{Step, eigen_polyhedron_step, nurss_step};
+pub use refine::{Refined, Refinement, Scheme, refined};
+pub use spokes::Spokes;

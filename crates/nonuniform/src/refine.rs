@@ -1,0 +1,163 @@
+//! Meshes refined by a scheme, in any number of levels.
+
+use crate::hybrid::{HybridNet, Outside};
+use crate::{Error, FirstLevel, Net, eigen_polyhedron_step, nurss_step};
+use eigenring_scheme::Table;
+use eigenring_surface::{Mesh, Point3};
+
+/// A scheme with knot intervals.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scheme {
+    /// Sederberg, Zheng, Sewell and Sabin 1998.
+    Nurss,
+    /// Li, Finnigan and Sederberg 2016.
+    EigenPolyhedron,
+    /// Li, Wei and Zhang 2019, with the rule of its first level.
+    Hnuss(FirstLevel),
+}
+
+/// What refinement has made.
+#[derive(Clone, Debug)]
+pub struct Refined {
+    /// The mesh, with its intervals.
+    pub mesh: Mesh,
+    /// Vertices, of the mesh of quads from which the hybrid net was made, with the simple rule for want of an
+    /// eigen-polyhedron.
+    pub simple: Vec<u32>,
+}
+
+/// A control mesh and nets that follow from it, each with the sparse map that makes its points of those before.
+#[derive(Clone, Debug)]
+pub struct Refinement {
+    scheme: Scheme,
+    tables: Vec<Table<f64>>,
+    current: Current,
+    /// As in [`Refined`].
+    pub simple: Vec<u32>,
+    levels: usize,
+}
+
+#[derive(Clone, Debug)]
+enum Current {
+    Primal(Net),
+    Hybrid(HybridNet),
+}
+
+impl Refinement {
+    /// Begins with a mesh. HNUSS makes its hybrid net, after one level of NURSS where faces are no quads.
+    ///
+    /// # Errors
+    /// Those of [`Net::new`] and [`HybridNet::new`].
+    pub fn new(mesh: &Mesh, scheme: Scheme, outside: Outside) -> Result<Self, Error> {
+        let mut net = Net::new(mesh)?;
+        let mut refinement = Refinement {
+            scheme,
+            tables: Vec::new(),
+            current: Current::Primal(net.clone()),
+            simple: Vec::new(),
+            levels: 0,
+        };
+        if let Scheme::Hnuss(rule) = scheme {
+            if !mesh.is_quads() {
+                let step = nurss_step(&net)?;
+                refinement.tables.push(step.table);
+                net = step.net;
+            }
+            let converted = HybridNet::new(&net, rule, outside)?;
+            refinement.tables.push(converted.table);
+            refinement.simple = converted.simple;
+            refinement.current = Current::Hybrid(converted.net);
+        }
+        Ok(refinement)
+    }
+
+    /// One level more.
+    ///
+    /// # Errors
+    /// Those of the scheme's step.
+    pub fn refine(&mut self) -> Result<(), Error> {
+        let (table, next) = match &self.current {
+            Current::Hybrid(net) => {
+                let (table, net) = net.halved()?;
+                (table, Current::Hybrid(net))
+            }
+            Current::Primal(net) => {
+                let step = match self.scheme {
+                    Scheme::EigenPolyhedron if self.levels > 0 => eigen_polyhedron_step(net)?,
+                    _ => nurss_step(net)?,
+                };
+                (step.table, Current::Primal(step.net))
+            }
+        };
+        self.tables.push(table);
+        self.current = next;
+        self.levels += 1;
+        Ok(())
+    }
+
+    /// The last net.
+    pub fn net(&self) -> &Net {
+        match &self.current {
+            Current::Primal(net) => net,
+            Current::Hybrid(net) => net.net(),
+        }
+    }
+
+    /// The last net, if the scheme is HNUSS.
+    pub fn hybrid(&self) -> Option<&HybridNet> {
+        match &self.current {
+            Current::Primal(_) => None,
+            Current::Hybrid(net) => Some(net),
+        }
+    }
+
+    /// The maps from the control mesh to the last net, in their order.
+    pub fn tables(&self) -> &[Table<f64>] {
+        &self.tables
+    }
+
+    /// Points of the last net from those of the control mesh without unused ones: `D` numbers each, whatever
+    /// they mean.
+    ///
+    /// # Errors
+    /// [`eigenring_scheme::Error::TablePoint`] for fewer points.
+    pub fn apply<const D: usize>(&self, points: &[[f64; D]]) -> Result<Vec<[f64; D]>, Error> {
+        let mut points = points.to_vec();
+        for table in &self.tables {
+            points = table.apply(&points)?;
+        }
+        Ok(points)
+    }
+}
+
+/// The mesh after so many levels; of HNUSS, level 0 is the hybrid net. With weights, homogeneous coordinates
+/// are refined: `(w x, w y, w z, w)`.
+///
+/// # Errors
+/// Those of [`Refinement`].
+pub fn refined(mesh: &Mesh, scheme: Scheme, levels: usize, outside: Outside) -> Result<Refined, Error> {
+    let mut refinement = Refinement::new(mesh, scheme, outside)?;
+    for _ in 0..levels {
+        refinement.refine()?;
+    }
+    let mesh = mesh.without_unused();
+    let net = refinement.net();
+    let refined = match mesh.weights() {
+        None => {
+            let points: Vec<[f64; 3]> = mesh.points().iter().map(|p| [p.x, p.y, p.z]).collect();
+            let points = refinement.apply(&points)?;
+            net.with_points(points.into_iter().map(Point3::from).collect(), None)
+        }
+        Some(weights) => {
+            let points = mesh.points().iter().zip(weights);
+            let lifted: Vec<[f64; 4]> = points.map(|(p, w)| [w * p.x, w * p.y, w * p.z, *w]).collect();
+            let found = refinement.apply(&lifted)?;
+            let points = found.iter().map(|[x, y, z, w]| Point3::new(x / w, y / w, z / w));
+            net.with_points(points.collect(), Some(found.iter().map(|p| p[3]).collect()))
+        }
+    };
+    Ok(Refined {
+        mesh: refined,
+        simple: refinement.simple,
+    })
+}

@@ -1,0 +1,1 @@
+//! Properties of the local rules at any valence and interval set.

@@ -1,0 +1,6 @@
+//! One binary for all tests.
+
+mod common;
+mod local;
+mod meshes;
+mod reference;

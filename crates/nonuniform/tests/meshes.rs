@@ -1,0 +1,133 @@
+//! Refined meshes against Boehm insertion on regular grids and against the prototype's nets.
+
+use crate::common::{Net, Regular, cases};
+use eigenring_nonuniform::{FirstLevel, Outside, Refinement, Scheme, refined};
+use eigenring_surface::features::edge;
+use eigenring_surface::{Mesh, Point3};
+
+const HNUSS: Scheme = Scheme::Hnuss(FirstLevel::Improved);
+
+/// A grid of which `points` has columns along u, row by row.
+fn grid(case: &Regular) -> (Mesh, Vec<[f64; 4]>) {
+    let (columns, rows) = (case.du.len() as u32 + 1, case.dv.len() as u32 + 1);
+    let lifted: Vec<[f64; 4]> = case
+        .points
+        .iter()
+        .map(|p| [p[0], p[1], p[2], p.get(3).copied().unwrap_or(1.0)])
+        .collect();
+    let at = |i: u32, j: u32| j * columns + i;
+    let faces = (0..rows - 1).flat_map(|j| (0..columns - 1).map(move |i| (i, j)));
+    let faces = faces.map(|(i, j)| [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
+    let points = lifted.iter().map(|p| Point3::new(p[0] / p[3], p[1] / p[3], p[2] / p[3]));
+    let mut mesh = Mesh::new(points.collect(), faces).unwrap();
+    if case.homogeneous {
+        mesh.set_weights(lifted.iter().map(|p| p[3]).collect());
+    }
+    for (i, &d) in (0..).zip(&case.du) {
+        mesh.features.knots.insert(edge(at(i, 0), at(i + 1, 0)), d);
+    }
+    for (j, &d) in (0..).zip(&case.dv) {
+        mesh.features.knots.insert(edge(at(0, j), at(0, j + 1)), d);
+    }
+    for &i in &case.doubled_columns {
+        for &j in &case.doubled_rows {
+            mesh.features.extraordinary.insert(at(i as u32, j as u32));
+        }
+    }
+    (mesh, lifted)
+}
+
+/// The largest distance of two sets of points, each to its nearest of the other; counts must agree.
+fn distance<const D: usize>(found: &[[f64; D]], expected: &[Vec<f64>]) -> f64 {
+    assert_eq!(found.len(), expected.len(), "numbers of points");
+    let gap = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+    let nearest = |p: &[f64], all: &mut dyn Iterator<Item = &[f64]>| all.map(|q| gap(p, q)).fold(f64::INFINITY, f64::min);
+    let there = found.iter().map(|p| nearest(p, &mut expected.iter().map(Vec::as_slice)));
+    let back = expected.iter().map(|p| nearest(p, &mut found.iter().map(|q| q.as_slice())));
+    there.chain(back).fold(0.0, f64::max)
+}
+
+#[test]
+fn regular_grids_are_refined_as_by_knot_insertion() {
+    for case in &cases().regular {
+        let (mesh, lifted) = grid(case);
+        let doubled = !case.doubled_columns.is_empty();
+        let zeros = case.du.iter().chain(&case.dv).any(|&d| d == 0.0);
+        let mut schemes = vec![HNUSS, Scheme::Hnuss(FirstLevel::Simple)];
+        if !doubled && !zeros {
+            schemes.extend([Scheme::Nurss, Scheme::EigenPolyhedron]);
+        }
+        for scheme in schemes {
+            let mut refinement = Refinement::new(&mesh, scheme, Outside::Error).unwrap();
+            for (level, expected) in case.levels.iter().enumerate() {
+                if level > 0 {
+                    refinement.refine().unwrap();
+                }
+                let points = refinement.apply(&lifted).unwrap();
+                let width = expected.points[0].len();
+                let error = if width == 4 {
+                    distance(&points, &expected.points)
+                } else {
+                    let points: Vec<[f64; 3]> = points.iter().map(|p| [p[0], p[1], p[2]]).collect();
+                    distance(&points, &expected.points)
+                };
+                let size = lifted.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
+                assert!(error < 1e-13 * size, "{scheme:?} level {level}: {error:e}");
+            }
+        }
+    }
+}
+
+fn mesh_of(net: &Net) -> Mesh {
+    let points = net.points.iter().map(|p| Point3::new(p[0], p[1], p[2]));
+    let mut mesh = Mesh::new(points.collect(), net.faces.as_ref().unwrap()).unwrap();
+    for &(a, b, d) in net.intervals.as_ref().unwrap() {
+        mesh.features.knots.insert(edge(a, b), d);
+    }
+    mesh
+}
+
+#[test]
+fn meshes_are_refined_as_by_the_prototype() {
+    for case in &cases().meshes {
+        let mesh = mesh_of(&case.control);
+        for (name, nets) in &case.refined {
+            let (scheme, first) = match name.as_str() {
+                "nurss" => (Scheme::Nurss, 1),
+                "eigen-polyhedron" => (Scheme::EigenPolyhedron, 1),
+                "hnuss-simple" => (Scheme::Hnuss(FirstLevel::Simple), 0),
+                "hnuss-printed" => (Scheme::Hnuss(FirstLevel::Printed), 0),
+                _ => (HNUSS, 0),
+            };
+            for (level, expected) in (first..).zip(nets) {
+                let label = format!("{} {name} {level}", case.name);
+                let found = refined(&mesh, scheme, level, Outside::Error).unwrap().mesh;
+                let points: Vec<[f64; 3]> = found.points().iter().map(|p| [p.x, p.y, p.z]).collect();
+                let error = distance(&points, &expected.points);
+                assert!(error < 1e-12, "{label}: {error:e}");
+                let faces = expected.face_count.or(expected.faces.as_ref().map(Vec::len));
+                assert_eq!(Some(found.face_count()), faces, "{label}");
+                let edges = expected.edge_count.or(expected.intervals.as_ref().map(Vec::len));
+                assert_eq!(Some(found.features.knots.len()), edges, "{label}");
+                if let Some(ngons) = &expected.extraordinary_faces {
+                    let found = found.faces().filter(|face| face.len() != 4).count();
+                    let expected = ngons.iter().filter(|&&f| expected.faces.as_ref().unwrap()[f].len() != 4).count();
+                    assert_eq!(found, expected, "{label}");
+                }
+                // intervals are those of the edges between the same points
+                if let Some(intervals) = &expected.intervals {
+                    let nearest = |p: &[f64]| {
+                        let gap = |q: &[f64; 3]| q.iter().zip(p).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+                        let best = points.iter().enumerate().min_by(|a, b| gap(a.1).total_cmp(&gap(b.1)));
+                        best.unwrap().0 as u32
+                    };
+                    for &(a, b, d) in intervals {
+                        let pair = edge(nearest(&expected.points[a as usize]), nearest(&expected.points[b as usize]));
+                        let own = found.features.knots.get(&pair);
+                        assert!(own.is_some_and(|own| (own - d).abs() < 1e-12), "{label}: {a}-{b}");
+                    }
+                }
+            }
+        }
+    }
+}
