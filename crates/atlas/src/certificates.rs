@@ -40,6 +40,10 @@ pub fn input(scheme: &SchemeName, valence: usize, reading: Reading, tuner: &Tune
                 parameters: set.map(|(name, value)| (name.clone(), value.to_string())).collect(),
             })
         }
+        SchemeName::NonUniform(_) => Err(match scheme.definition(reading) {
+            Err(error) => error,
+            Ok(_) => Error::content("no certificate"),
+        }),
         SchemeName::Spec(spec) => Ok(match tuner.member(spec, valence)? {
             Some(member) => Input::member(&member),
             None => Input::from_spec(spec, valence)?,
@@ -97,7 +101,7 @@ pub fn beside(
             shape: shape.clone(),
             steps,
         }),
-        (SchemeName::File(_), ..) => {
+        (SchemeName::File(_) | SchemeName::NonUniform(_), ..) => {
             // the reason is the definition's
             scheme.around(&shape.corner(scheme.centre()?, steps)?, tuner)?;
             Err(Error::Usage {

@@ -31,6 +31,9 @@ pub enum Error {
     /// From meshes and surfaces.
     #[error(transparent)]
     Surface(#[from] eigenring_surface::Error),
+    /// From knot intervals.
+    #[error(transparent)]
+    NonUniform(#[from] eigenring_nonuniform::Error),
     /// From drawing.
     #[error(transparent)]
     Figure(#[from] eigenring_figure::Error),
@@ -158,6 +161,7 @@ impl Error {
             | Error::Sweep(_)
             | Error::Study(_)
             | Error::Surface(_)
+            | Error::NonUniform(_)
             | Error::Figure(_)
             | Error::Certify(_) => accepted_in(&self.to_string()),
         }

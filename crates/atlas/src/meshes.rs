@@ -83,8 +83,79 @@ pub fn read_surface(path: &Path) -> Result<(Mesh, Vec<String>), Error> {
     let mut file = read(path)?;
     let mut notices = std::mem::take(&mut file.notices);
     let mesh = file.surface().map_err(|error| Error::from(error).in_file(path))?;
+    if mesh.weights().is_some() {
+        notices.push(
+            "vertices have a fourth coordinate, which only schemes with knot intervals use; it is kept".to_owned(),
+        );
+    }
     notices.extend(remarks(&mesh));
     Ok((mesh, notices))
+}
+
+/// Reads a mesh whose marks are knot intervals, which are for the scheme to judge, as are fourth coordinates.
+///
+/// # Errors
+/// As [`read_surface`].
+pub fn read_with_intervals(path: &Path) -> Result<(Mesh, Vec<String>), Error> {
+    let mut file = read(path)?;
+    let knots = std::mem::take(&mut file.mesh.features.knots);
+    let mut notices = std::mem::take(&mut file.notices);
+    let mut mesh = file.surface().map_err(|error| Error::from(error).in_file(path))?;
+    notices.extend(remarks(&mesh));
+    mesh.features.knots = knots;
+    Ok((mesh, notices))
+}
+
+/// Adds knot intervals to those of a mesh: three columns, two vertices and the interval of their edge, with or
+/// without a header.
+///
+/// # Errors
+/// [`Error::Read`], [`Error::InFile`] with the line; two values for one edge, here or in the mesh.
+pub fn read_intervals(path: &Path, mesh: &mut Mesh) -> Result<(), Error> {
+    let text = crate::files::read(path)?;
+    for (index, line) in text.lines().enumerate() {
+        let cells: Vec<&str> = line.split(',').map(str::trim).collect();
+        if line.trim().is_empty() || (index == 0 && cells[0].parse::<f64>().is_err()) {
+            continue;
+        }
+        let refuse = |what: String, accepted: &str| {
+            let accepted = Accepted::Are(accepted.to_owned());
+            Error::refused(format!("line {}: {what}", index + 1), accepted).in_file(path)
+        };
+        let (Some([a, b]), Some(value)) = (
+            cells
+                .get(..2)
+                .and_then(|pair| Some([pair[0].parse().ok()?, pair[1].parse().ok()?])),
+            cells
+                .get(2)
+                .and_then(|cell| cell.parse::<f64>().ok())
+                .filter(|_| cells.len() == 3),
+        ) else {
+            return Err(refuse(
+                format!("'{line}'"),
+                "three columns: two vertices from 0, and the interval of their edge",
+            ));
+        };
+        if !(value.is_finite() && value >= 0.0) {
+            return Err(refuse(
+                format!("the knot interval of edge {a}-{b} is {value}"),
+                "finite numbers from 0",
+            ));
+        }
+        let pair = eigenring_surface::features::edge(a, b);
+        if let Some(before) = mesh
+            .features
+            .knots
+            .insert(pair, value)
+            .filter(|before| *before != value)
+        {
+            return Err(refuse(
+                format!("edge {a}-{b} has the knot intervals {before} and {value}"),
+                "one value for an edge",
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// Remarks on a surface that are no defects.

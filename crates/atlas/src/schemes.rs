@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::progress::{Progress, Silent};
 use crate::run::minima_over_lambda;
 use crate::table::short;
+use eigenring_nonuniform::{NAMES, Scheme as NonUniform};
 use eigenring_scheme::lambda::{Bounds, Domain, Member, Plane, Source, Untabulated};
 use eigenring_scheme::user::{Reading, UserScheme};
 use eigenring_scheme::{Centre, Corner, Definition, Number, Scheme, Spec, registry};
@@ -180,6 +181,8 @@ pub enum SchemeName {
     Spec(Spec),
     /// A scheme file.
     File(SchemeFile),
+    /// A scheme whose rules depend on knot intervals.
+    NonUniform(NonUniform),
 }
 
 /// A scheme file, with values for its parameters.
@@ -251,6 +254,10 @@ impl FromStr for SchemeName {
         if let Some(file) = text.strip_prefix("file:") {
             return SchemeFile::parse(file).map(SchemeName::File);
         }
+        let name = text.split(':').next().unwrap_or_default();
+        if NAMES.iter().any(|(known, _)| known.split('[').next() == Some(name)) {
+            return text.parse().map(SchemeName::NonUniform);
+        }
         let spec = text.parse().map_err(|error| match error {
             // a name of no family is likely that of a file
             eigenring_scheme::Error::Spec { spec, reason, accepted } if !is_family(&spec) => {
@@ -261,7 +268,7 @@ impl FromStr for SchemeName {
                 eigenring_scheme::Error::Spec {
                     spec,
                     reason: reason + &meant,
-                    accepted: format!("{accepted} | {FILE}"),
+                    accepted: format!("{accepted} | {} | {FILE}", NAMES.map(|(name, _)| name).join(" | ")),
                 }
             }
             other => other,
@@ -289,6 +296,7 @@ impl SchemeName {
                 Some(member) => Ok(member.scheme(spec.to_string())?),
                 None => Ok(spec.scheme(valence)?),
             },
+            SchemeName::NonUniform(scheme) => Ok(scheme.around(&Corner::closed(self.centre()?, valence)?)?),
         }
     }
 
@@ -306,6 +314,12 @@ impl SchemeName {
                     accepted: "--set with file:SCHEME.toml; families have their parameters in the name".to_owned(),
                 });
             }
+            SchemeName::NonUniform(scheme) => {
+                return Err(Error::Usage {
+                    message: format!("--set has no meaning for {scheme}"),
+                    accepted: "--set with file:SCHEME.toml; knot intervals are given by --knots or the mesh".to_owned(),
+                });
+            }
         }
         Ok(self)
     }
@@ -318,6 +332,10 @@ impl SchemeName {
         match self {
             SchemeName::Spec(spec) => Ok(Definition::Family(spec.clone())),
             SchemeName::File(file) => Ok(Definition::File(Box::new(file.read(reading)?))),
+            SchemeName::NonUniform(scheme) => Err(Error::Usage {
+                message: format!("{scheme} has no rules without knot intervals, and this command takes none"),
+                accepted: "subdivide, limit, spectrum, matrix, eigenvectors, verify and blending with it".to_owned(),
+            }),
         }
     }
 
@@ -328,6 +346,9 @@ impl SchemeName {
     /// As [`SchemeName::scheme`]; [`eigenring_scheme::Error::Unsupported`] for a kind of corner that the
     /// scheme has no rules for.
     pub fn around(&self, corner: &Corner, tuner: &Tuner<'_>) -> Result<Scheme<f64>, Error> {
+        if let SchemeName::NonUniform(scheme) = self {
+            return Ok(scheme.around(corner)?);
+        }
         let definition = self.definition(Reading::default())?;
         if let SchemeName::Spec(spec) = self
             && corner.is_plain()
@@ -346,7 +367,7 @@ impl SchemeName {
     pub fn blamed<T, E: Into<Error>>(&self, result: Result<T, E>) -> Result<T, Error> {
         result.map_err(|error| match self {
             SchemeName::File(file) => error.into().in_file(&file.path),
-            SchemeName::Spec(_) => error.into(),
+            SchemeName::Spec(_) | SchemeName::NonUniform(_) => error.into(),
         })
     }
 
@@ -357,7 +378,7 @@ impl SchemeName {
     /// As [`SchemeName::around`].
     pub fn extended(&self, corner: &Corner) -> Result<Option<Scheme<Extended>>, Error> {
         let lambda = matches!(self, SchemeName::Spec(Spec::LambdaOptimal | Spec::Lambda { .. }));
-        if lambda && corner.is_plain() {
+        if (lambda && corner.is_plain()) || matches!(self, SchemeName::NonUniform(_)) {
             return Ok(None);
         }
         let definition = self.definition(Reading::default())?;
@@ -383,7 +404,10 @@ impl SchemeName {
     /// # Errors
     /// Those of reading a file.
     pub fn centre(&self) -> Result<Centre, Error> {
-        Ok(self.definition(Reading::default())?.centre())
+        Ok(match self {
+            SchemeName::NonUniform(scheme) => scheme.centre(),
+            _ => self.definition(Reading::default())?.centre(),
+        })
     }
 
     /// The member of the lambda-scheme that is named, if it is one.
@@ -393,7 +417,7 @@ impl SchemeName {
     pub fn member(&self, valence: usize, tuner: &Tuner<'_>) -> Result<Option<Member>, Error> {
         match self {
             SchemeName::Spec(spec) => tuner.member(spec, valence),
-            SchemeName::File(_) => Ok(None),
+            SchemeName::File(_) | SchemeName::NonUniform(_) => Ok(None),
         }
     }
 }

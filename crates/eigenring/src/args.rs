@@ -262,7 +262,7 @@ impl Schemes {
             .any(|scheme| matches!(scheme, SchemeName::File(_)));
         for scheme in self.lists.iter().flat_map(|list| &list.0) {
             let scheme = match scheme {
-                SchemeName::Spec(_) if has_file => scheme.clone(),
+                SchemeName::Spec(_) | SchemeName::NonUniform(_) if has_file => scheme.clone(),
                 _ => self.settings.apply(scheme.clone())?,
             };
             if !all.contains(&scheme) {

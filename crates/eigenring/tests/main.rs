@@ -8,6 +8,7 @@ mod curve;
 mod destinations;
 mod errors;
 mod formulas;
+mod nonuniform;
 mod on_demand;
 mod own_matrices;
 mod plot;

@@ -103,7 +103,9 @@ impl EigenPolyhedron {
                 rule: "the eigen-polyhedron",
             });
         }
-        let lengths: Vec<f64> = (0..n).map(|i| (2.0 * spokes.intervals()[i] + d_minus[i]) / 3.0).collect();
+        let lengths: Vec<f64> = (0..n)
+            .map(|i| (2.0 * spokes.intervals()[i] + d_minus[i]) / 3.0)
+            .collect();
         if let Some(i) = lengths.iter().position(|&l| l == 0.0) {
             return Err(Error::ZeroSum {
                 what: format!("spoke {i} and its neighbours"),
@@ -192,7 +194,9 @@ impl EigenPolyhedron {
     /// Eq. 13: bilinear in (beta_1, beta_2), so that beta_2 is a root of a quadratic.
     fn edge_weights(&self, points: &[[f64; 2]], i: isize) -> Option<[f64; 2]> {
         let own = points[self.order().edge(i)];
-        let p = self.beside(i).map(|[a, b]| sum(&[(a.1, points[a.0]), (b.1, points[b.0])]));
+        let p = self
+            .beside(i)
+            .map(|[a, b]| sum(&[(a.1, points[a.0]), (b.1, points[b.0])]));
         // target = beta_1 across + beta_2 along + beta_1 beta_2 twist
         let target = sum(&[(1.0, self.centre), (self.lambda, own), (-0.5, p[0])]);
         let across = sum(&[(0.5, p[1]), (-0.5, p[0])]);
@@ -221,7 +225,9 @@ impl EigenPolyhedron {
         let bad = |weights: &[f64; 2]| weights.iter().any(|w| !(-ROUNDING..=1.0 + ROUNDING).contains(w));
         let named = |what: &'static str, list: &[[f64; 2]]| -> Vec<String> {
             let numbered = list.iter().enumerate().filter(|(_, weights)| bad(weights));
-            numbered.map(|(i, [a, b])| format!("{what} {i} ({a:.4}, {b:.4})")).collect()
+            numbered
+                .map(|(i, [a, b])| format!("{what} {i} ({a:.4}, {b:.4})"))
+                .collect()
         };
         [named("sector", &self.alpha), named("spoke", &self.beta)].concat()
     }
@@ -261,7 +267,10 @@ impl EigenPolyhedron {
             let [own, next] = self.alpha[i as usize];
             bilinear(order, i, &own, &next)
         };
-        let rows = [vertex].into_iter().chain(indices.clone().map(edge)).chain(indices.map(face));
+        let rows = [vertex]
+            .into_iter()
+            .chain(indices.clone().map(edge))
+            .chain(indices.map(face));
         Ok(Matrix::from_rows(rows.collect(), order.size()))
     }
 

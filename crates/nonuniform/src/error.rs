@@ -15,7 +15,9 @@ pub enum Error {
     #[error(transparent)]
     Surface(#[from] eigenring_surface::Error),
     /// Too few or too many spokes, or other counts of intervals.
-    #[error("{spokes} spokes with {next} next intervals: accepted are {least} to {MAX_SPOKES} spokes, and as many next intervals")]
+    #[error(
+        "{spokes} spokes with {next} next intervals: accepted are {least} to {MAX_SPOKES} spokes, and as many next intervals"
+    )]
     Counts {
         /// The intervals of the first edges.
         spokes: usize,
@@ -33,7 +35,9 @@ pub enum Error {
         value: f64,
     },
     /// Intervals by whose sum a rule divides.
-    #[error("the knot intervals of {what} are all zero, and {rule} divides by their sum: accepted is a positive one among them")]
+    #[error(
+        "the knot intervals of {what} are all zero, and {rule} divides by their sum: accepted is a positive one among them"
+    )]
     ZeroSum {
         /// The elements.
         what: String,
@@ -41,7 +45,9 @@ pub enum Error {
         rule: &'static str,
     },
     /// Zero intervals that leave no strict subdominant eigenvalue.
-    #[error("the knot intervals of spokes {spokes:?}{place} are zero: accepted are one or two adjacent ones of {valence}")]
+    #[error(
+        "the knot intervals of spokes {spokes:?}{place} are zero: accepted are one or two adjacent ones of {valence}"
+    )]
     ZeroSpokes {
         /// The spokes.
         spokes: Vec<usize>,
@@ -51,7 +57,9 @@ pub enum Error {
         place: String,
     },
     /// Intervals for which the eigen-polyhedron does not exist.
-    #[error("the eigen-polyhedron does not exist{place} for the intervals {intervals:?}: weights beyond [0, 1] at {at}: accepted are ratios up to {safe} at valence {valence}, and sets with all weights in [0, 1]")]
+    #[error(
+        "the eigen-polyhedron does not exist{place} for the intervals {intervals:?}: weights beyond [0, 1] at {at}: accepted are ratios up to {safe} at valence {valence}, and sets with all weights in [0, 1]"
+    )]
     OutsideDomain {
         /// At which vertex, in words.
         place: String,
@@ -113,9 +121,29 @@ pub enum Error {
 }
 
 impl Error {
-    /// The same error of the spokes of a vertex of a mesh.
+    /// The same error without the vertex, which is that of a corner.
     #[must_use]
-    pub fn at(mut self, vertex: u32) -> Self {
+    pub(crate) fn of_spokes(mut self) -> Self {
+        if let Error::OutsideDomain { place, .. } | Error::ZeroSpokes { place, .. } = &mut self {
+            place.clear();
+        }
+        self
+    }
+
+    /// The same error of a vertex of a mesh whose spokes lead to `heads`.
+    #[must_use]
+    pub fn at(mut self, vertex: u32, heads: &[u32]) -> Self {
+        if let Error::Scheme(eigenring_scheme::Error::ZeroIntervals { spokes }) = &self {
+            let edges = spokes.map(|i| {
+                heads
+                    .get(i)
+                    .map_or(format!("spoke {i}"), |head| format!("{vertex}-{head}"))
+            });
+            return Error::ZeroSum {
+                what: format!("edges {} of vertex {vertex}", edges.join(" and ")),
+                rule: "the rule of HNUSS",
+            };
+        }
         match &mut self {
             Error::OutsideDomain { place, .. } | Error::ZeroSpokes { place, .. } => {
                 *place = format!(" at vertex {vertex}");

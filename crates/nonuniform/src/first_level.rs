@@ -111,7 +111,10 @@ pub fn rows(spokes: &Spokes, rule: FirstLevel) -> Result<Matrix<f64>, Error> {
                 let relative: Vec<f64> = (0..2 * n).map(|j| vectors[(i, j)] - mean[j]).collect();
                 let mut row = limit.clone();
                 row[0] -= relative.iter().sum::<f64>();
-                row[1..].iter_mut().zip(relative).for_each(|(entry, weight)| *entry += weight);
+                row[1..]
+                    .iter_mut()
+                    .zip(relative)
+                    .for_each(|(entry, weight)| *entry += weight);
                 row
             })
             .collect(),

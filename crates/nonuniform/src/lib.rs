@@ -2,16 +2,17 @@
 
 pub mod eigen_polyhedron;
 mod error;
+pub mod first_level;
 mod hybrid;
 mod intervals;
 mod net;
+pub mod ngon;
+pub mod nurss;
 mod primal;
 mod refine;
 mod row;
-pub mod first_level;
-pub mod ngon;
-pub mod nurss;
 mod spokes;
+mod star;
 
 pub use eigen_polyhedron::EigenPolyhedron;
 pub use error::{Error, MAX_SPOKES, Marked};
@@ -21,5 +22,6 @@ pub use intervals::KnotIntervals;
 pub use net::Net;
 pub use ngon::NGon;
 pub use primal::{Step, eigen_polyhedron_step, nurss_step};
-pub use refine::{Refined, Refinement, Scheme, refined};
+pub use refine::{NAMES, Refined, Refinement, Scheme, refined};
 pub use spokes::Spokes;
+pub use star::Star;

@@ -90,7 +90,10 @@ impl NGon {
 
     /// The eigenvalues of Q_n, falling.
     pub fn spectrum(&self) -> Vec<f64> {
-        let mut spectrum: Vec<f64> = [1.0, 0.5, 0.5].into_iter().chain(self.mu().into_iter().map(|mu| 0.5 - mu)).collect();
+        let mut spectrum: Vec<f64> = [1.0, 0.5, 0.5]
+            .into_iter()
+            .chain(self.mu().into_iter().map(|mu| 0.5 - mu))
+            .collect();
         spectrum.sort_by(|a, b| b.total_cmp(a));
         spectrum
     }
@@ -110,7 +113,10 @@ impl NGon {
             own + 2.0 * (own - mode(n, i, j)) * self.face.alpha[j]
         });
         let beta = DVector::from_column_slice(&self.face.beta);
-        let v = system.lu().solve(&beta).expect("I + 2 (I - Pi) A has eigenvalues of real part 1 and more");
+        let v = system
+            .lu()
+            .solve(&beta)
+            .expect("I + 2 (I - Pi) A has eigenvalues of real part 1 and more");
         v.iter().copied().collect()
     }
 

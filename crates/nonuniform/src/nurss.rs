@@ -84,10 +84,7 @@ pub fn matrix<S: Scalar>(spokes: &Spokes) -> Result<Matrix<S>, Error> {
     let indices = 0..n as isize;
     let weights: Vec<S> = indices.clone().map(|i| averaged(spokes, i)).collect();
     let w = |i: isize| &weights[spokes.index(i)];
-    let faces: Vec<Row<S>> = indices
-        .clone()
-        .map(|i| bilinear(order, i, w(i), w(i + 1)))
-        .collect();
+    let faces: Vec<Row<S>> = indices.clone().map(|i| bilinear(order, i, w(i), w(i + 1))).collect();
     let face = |i: isize| &faces[spokes.index(i)];
     // the middle of an edge, M_i
     let middle = |i: isize| {
@@ -139,7 +136,10 @@ fn extraordinary_vertex<S: Scalar>(
     let n = spokes.valence();
     let products: f64 = (0..n as isize).map(|i| spokes.d(i - 1) * spokes.d(i + 2)).sum();
     if products == 0.0 {
-        let zeros: Vec<String> = (0..n).filter(|&i| spokes.intervals()[i] == 0.0).map(|i| i.to_string()).collect();
+        let zeros: Vec<String> = (0..n)
+            .filter(|&i| spokes.intervals()[i] == 0.0)
+            .map(|i| i.to_string())
+            .collect();
         return Err(Error::ZeroSum {
             what: format!("spokes {}", zeros.join(", ")),
             rule: "the vertex point",

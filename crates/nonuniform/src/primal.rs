@@ -61,7 +61,9 @@ impl<'a> Primal<'a> {
     fn new(net: &'a Net) -> Self {
         let topology = net.topology();
         let mut towards = vec![None; topology.vertex_count()];
-        let irregular: Vec<u32> = (0..topology.vertex_count() as u32).filter(|&v| net.is_irregular(v)).collect();
+        let irregular: Vec<u32> = (0..topology.vertex_count() as u32)
+            .filter(|&v| net.is_irregular(v))
+            .collect();
         for &vertex in &irregular {
             for spoke in topology.fan(vertex).spokes {
                 towards[topology.head(spoke) as usize] = topology.twin(spoke);
@@ -81,7 +83,9 @@ impl<'a> Primal<'a> {
             towards,
             irregular,
         };
-        primal.faces = (0..topology.face_count() as u32).map(|face| primal.face(face)).collect();
+        primal.faces = (0..topology.face_count() as u32)
+            .map(|face| primal.face(face))
+            .collect();
         primal
     }
 
@@ -199,10 +203,10 @@ impl<'a> Primal<'a> {
         let f = |i: usize| d(i + n - 1) * d(i + 2);
         let mut sum = 0.0;
         let mut mean = Row::default();
-        for i in 0..n {
+        for (i, &spoke) in spokes.iter().enumerate() {
             let m = f(i) + f(i + n - 1);
-            mean.add(m, &self.middles[topology.edge(spokes[i]) as usize]);
-            mean.add(f(i), &self.faces[topology.face(spokes[i]) as usize]);
+            mean.add(m, &self.middles[topology.edge(spoke) as usize]);
+            mean.add(f(i), &self.faces[topology.face(spoke) as usize]);
             sum += m + f(i);
         }
         if sum == 0.0 {
@@ -232,7 +236,7 @@ impl<'a> Primal<'a> {
             let spokes = topology.fan(vertex).spokes;
             let d: Vec<f64> = spokes.iter().map(|&spoke| self.net.interval(spoke)).collect();
             let matrix = EigenPolyhedron::new(&d).and_then(|polyhedron| polyhedron.matrix());
-            let matrix = matrix.map_err(|error| error.at(vertex))?;
+            let matrix = matrix.map_err(|error| error.at(vertex, &[]))?;
             let points = around(topology, vertex, &spokes);
             let order = nurss::Order { n: spokes.len() };
             let row = |i: usize| Row::of(points.iter().copied().zip(matrix.row(i).iter().copied()));
@@ -252,13 +256,21 @@ impl<'a> Primal<'a> {
             .iter()
             .map(|&vertex| self.irregular_vertex(vertex, &topology.fan(vertex).spokes))
             .collect::<Result<_, _>>()?;
-        let replaced = if by_polyhedra { self.replace_faces()? } else { Vec::new() };
+        let replaced = if by_polyhedra {
+            self.replace_faces()?
+        } else {
+            Vec::new()
+        };
         let numbers = 0..topology.edge_count() as u32;
         self.edges = numbers.map(|number| self.edge(number)).collect::<Result<_, _>>()?;
         let mut irregular = irregular.into_iter();
         let mut vertices = Vec::with_capacity(topology.vertex_count());
         for vertex in 0..topology.vertex_count() as u32 {
-            let own = if self.net.is_irregular(vertex) { irregular.next() } else { None };
+            let own = if self.net.is_irregular(vertex) {
+                irregular.next()
+            } else {
+                None
+            };
             vertices.push(own.unwrap_or_else(|| self.vertex(vertex)));
         }
         for (edge, row) in replaced {

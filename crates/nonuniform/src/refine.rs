@@ -16,6 +16,55 @@ pub enum Scheme {
     Hnuss(FirstLevel),
 }
 
+/// The schemes by name, and what they are.
+pub const NAMES: [(&str, &str); 3] = [
+    (
+        "nurss",
+        "knot intervals, by averages around extraordinary vertices (Sederberg, Zheng, Sewell and Sabin 1998)",
+    ),
+    (
+        "eigen-polyhedron",
+        "knot intervals, with Catmull-Clark's subdominant eigenvalue (Li, Finnigan and Sederberg 2016)",
+    ),
+    (
+        "hnuss[:simple|printed|improved]",
+        "knot intervals, on a hybrid net with extraordinary faces (Li, Wei and Zhang 2019)",
+    ),
+];
+
+impl std::fmt::Display for Scheme {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Scheme::Nurss => "nurss",
+            Scheme::EigenPolyhedron => "eigen-polyhedron",
+            Scheme::Hnuss(FirstLevel::Improved) => "hnuss",
+            Scheme::Hnuss(FirstLevel::Simple) => "hnuss:simple",
+            Scheme::Hnuss(FirstLevel::Printed) => "hnuss:printed",
+        })
+    }
+}
+
+impl std::str::FromStr for Scheme {
+    type Err = eigenring_scheme::Error;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        Ok(match text {
+            "nurss" => Scheme::Nurss,
+            "eigen-polyhedron" => Scheme::EigenPolyhedron,
+            "hnuss" | "hnuss:improved" => Scheme::Hnuss(FirstLevel::Improved),
+            "hnuss:simple" => Scheme::Hnuss(FirstLevel::Simple),
+            "hnuss:printed" => Scheme::Hnuss(FirstLevel::Printed),
+            _ => {
+                return Err(eigenring_scheme::Error::Spec {
+                    spec: text.to_owned(),
+                    reason: "no such scheme with knot intervals".to_owned(),
+                    accepted: NAMES.map(|(name, _)| name).join(" | "),
+                });
+            }
+        })
+    }
+}
+
 /// What refinement has made.
 #[derive(Clone, Debug)]
 pub struct Refined {
@@ -47,7 +96,7 @@ impl Refinement {
     /// Begins with a mesh. HNUSS makes its hybrid net, after one level of NURSS where faces are no quads.
     ///
     /// # Errors
-    /// Those of [`Net::new`] and [`HybridNet::new`].
+    /// Those of [`Net::new`] and [`HybridNet::of`].
     pub fn new(mesh: &Mesh, scheme: Scheme, outside: Outside) -> Result<Self, Error> {
         let mut net = Net::new(mesh)?;
         let mut refinement = Refinement {
@@ -63,7 +112,7 @@ impl Refinement {
                 refinement.tables.push(step.table);
                 net = step.net;
             }
-            let converted = HybridNet::new(&net, rule, outside)?;
+            let converted = HybridNet::of(&net, rule, outside)?;
             refinement.tables.push(converted.table);
             refinement.simple = converted.simple;
             refinement.current = Current::Hybrid(converted.net);

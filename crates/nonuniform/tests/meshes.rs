@@ -18,7 +18,9 @@ fn grid(case: &Regular) -> (Mesh, Vec<[f64; 4]>) {
     let at = |i: u32, j: u32| j * columns + i;
     let faces = (0..rows - 1).flat_map(|j| (0..columns - 1).map(move |i| (i, j)));
     let faces = faces.map(|(i, j)| [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
-    let points = lifted.iter().map(|p| Point3::new(p[0] / p[3], p[1] / p[3], p[2] / p[3]));
+    let points = lifted
+        .iter()
+        .map(|p| Point3::new(p[0] / p[3], p[1] / p[3], p[2] / p[3]));
     let mut mesh = Mesh::new(points.collect(), faces).unwrap();
     if case.homogeneous {
         mesh.set_weights(lifted.iter().map(|p| p[3]).collect());
@@ -41,9 +43,14 @@ fn grid(case: &Regular) -> (Mesh, Vec<[f64; 4]>) {
 fn distance<const D: usize>(found: &[[f64; D]], expected: &[Vec<f64>]) -> f64 {
     assert_eq!(found.len(), expected.len(), "numbers of points");
     let gap = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
-    let nearest = |p: &[f64], all: &mut dyn Iterator<Item = &[f64]>| all.map(|q| gap(p, q)).fold(f64::INFINITY, f64::min);
-    let there = found.iter().map(|p| nearest(p, &mut expected.iter().map(Vec::as_slice)));
-    let back = expected.iter().map(|p| nearest(p, &mut found.iter().map(|q| q.as_slice())));
+    let nearest =
+        |p: &[f64], all: &mut dyn Iterator<Item = &[f64]>| all.map(|q| gap(p, q)).fold(f64::INFINITY, f64::min);
+    let there = found
+        .iter()
+        .map(|p| nearest(p, &mut expected.iter().map(Vec::as_slice)));
+    let back = expected
+        .iter()
+        .map(|p| nearest(p, &mut found.iter().map(|q| q.as_slice())));
     there.chain(back).fold(0.0, f64::max)
 }
 
@@ -111,7 +118,10 @@ fn meshes_are_refined_as_by_the_prototype() {
                 assert_eq!(Some(found.features.knots.len()), edges, "{label}");
                 if let Some(ngons) = &expected.extraordinary_faces {
                     let found = found.faces().filter(|face| face.len() != 4).count();
-                    let expected = ngons.iter().filter(|&&f| expected.faces.as_ref().unwrap()[f].len() != 4).count();
+                    let expected = ngons
+                        .iter()
+                        .filter(|&&f| expected.faces.as_ref().unwrap()[f].len() != 4)
+                        .count();
                     assert_eq!(found, expected, "{label}");
                 }
                 // intervals are those of the edges between the same points
@@ -122,7 +132,10 @@ fn meshes_are_refined_as_by_the_prototype() {
                         best.unwrap().0 as u32
                     };
                     for &(a, b, d) in intervals {
-                        let pair = edge(nearest(&expected.points[a as usize]), nearest(&expected.points[b as usize]));
+                        let pair = edge(
+                            nearest(&expected.points[a as usize]),
+                            nearest(&expected.points[b as usize]),
+                        );
                         let own = found.features.knots.get(&pair);
                         assert!(own.is_some_and(|own| (own - d).abs() < 1e-12), "{label}: {a}-{b}");
                     }

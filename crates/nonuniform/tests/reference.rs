@@ -11,7 +11,9 @@ fn matrix_difference(found: &Matrix<f64>, expected: &[Vec<f64>]) -> f64 {
 /// Eigenvalues with multiplicities, by falling real part.
 fn eigenvalues(matrix: &Matrix<f64>) -> Vec<[f64; 2]> {
     let values = Block::Real(matrix.clone()).eigenvalues().unwrap();
-    let repeated = values.iter().flat_map(|e| std::iter::repeat_n([e.value.re, e.value.im], e.multiplicity));
+    let repeated = values
+        .iter()
+        .flat_map(|e| std::iter::repeat_n([e.value.re, e.value.im], e.multiplicity));
     sorted(repeated.collect())
 }
 
@@ -39,8 +41,14 @@ fn check(case: &Local) {
     let expected = &case.eigen_polyhedron;
     let found = EigenPolyhedron::anywhere(&case.d).unwrap();
     assert!((found.gamma - expected.gamma).abs() < 1e-13 && (found.lambda - expected.lambda).abs() < 1e-13);
-    assert!(difference(&found.d_minus, expected.d_minus.as_ref().unwrap()) < 1e-11, "{label}");
-    assert!(difference(&found.lengths, expected.l.as_ref().unwrap()) < 1e-11, "{label}");
+    assert!(
+        difference(&found.d_minus, expected.d_minus.as_ref().unwrap()) < 1e-11,
+        "{label}"
+    );
+    assert!(
+        difference(&found.lengths, expected.l.as_ref().unwrap()) < 1e-11,
+        "{label}"
+    );
     assert!(difference(&found.centre, expected.centre.as_ref().unwrap()) < 1e-12 * case.d[0].max(1.0));
     // outside of the domain the weights are of any size, and ill-conditioned
     let pairs = |found: &[[f64; 2]], expected: &Option<Vec<[f64; 2]>>| {
@@ -48,21 +56,35 @@ fn check(case: &Local) {
         let size = expected.iter().flatten().fold(1.0, |m: f64, x| m.max(x.abs()));
         difference(found.iter().flatten(), expected.iter().flatten()) / size
     };
-    let tolerances = if expected.in_domain { [1e-12, 1e-12] } else { [1e-11, 1e-3] };
+    let tolerances = if expected.in_domain {
+        [1e-12, 1e-12]
+    } else {
+        [1e-11, 1e-3]
+    };
     assert!(pairs(&found.alpha, &expected.alpha) < tolerances[0], "{label}");
     assert!(pairs(&found.beta, &expected.beta) < tolerances[1], "{label}");
     assert_eq!(found.is_inside(), expected.in_domain, "{label}");
     if expected.in_domain {
-        check_spectrum(eigenvalues(&found.matrix().unwrap()), expected.spectrum.as_ref().unwrap(), 1e-10);
+        check_spectrum(
+            eigenvalues(&found.matrix().unwrap()),
+            expected.spectrum.as_ref().unwrap(),
+            1e-10,
+        );
         let strict = EigenPolyhedron::new(&case.d).unwrap();
         assert!(matrix_difference(&strict.matrix().unwrap(), expected.matrix.as_ref().unwrap()) < 1e-12);
         let limit = strict.limit_weights().unwrap();
         let error = difference(&limit, expected.limit_weights.as_ref().unwrap());
         assert!(error < 1e-12, "{label} {error:e} {limit:?}");
         let limit = strict.limit_of_first_step(&spokes).unwrap();
-        assert!(difference(&limit, expected.limit_of_first_step.as_ref().unwrap()) < 1e-12, "{label}");
+        assert!(
+            difference(&limit, expected.limit_of_first_step.as_ref().unwrap()) < 1e-12,
+            "{label}"
+        );
     } else {
-        assert!(matches!(EigenPolyhedron::new(&case.d), Err(Error::OutsideDomain { .. })), "{label}");
+        assert!(
+            matches!(EigenPolyhedron::new(&case.d), Err(Error::OutsideDomain { .. })),
+            "{label}"
+        );
     }
 
     let ngon = NGon::new(&case.d).unwrap();
@@ -72,10 +94,15 @@ fn check(case: &Local) {
     assert!(difference(ngon.beta(), &case.hnuss.beta) < 1e-12, "{label}");
     assert!(matrix_difference(&ngon.matrix(), &case.hnuss.matrix) < 1e-12, "{label}");
     assert!(difference(&ngon.spectrum(), &case.hnuss.spectrum) < 1e-10, "{label}");
-    assert!(difference(&ngon.limit_weights(), &case.hnuss.limit_weights) < 1e-12, "{label}");
+    assert!(
+        difference(&ngon.limit_weights(), &case.hnuss.limit_weights) < 1e-12,
+        "{label}"
+    );
     for (found, expected) in ngon.tangent_weights().iter().zip(&case.hnuss.tangent_weights) {
         // up to a factor
-        let scale = expected.iter().fold(0.0_f64, |m, x| if x.abs() > m.abs() { *x } else { m });
+        let scale = expected
+            .iter()
+            .fold(0.0_f64, |m, x| if x.abs() > m.abs() { *x } else { m });
         let at = expected.iter().position(|x| *x == scale).unwrap();
         let ratio = scale / found[at];
         let scaled: Vec<f64> = found.iter().map(|x| x * ratio / scale).collect();
@@ -93,7 +120,10 @@ fn check(case: &Local) {
             let error = matrix_difference(&found, expected);
             assert!(error < 1e-12, "{label} {name} {error:e}");
         } else {
-            assert!(!case.eigen_polyhedron.in_domain && rule.needs_polyhedron(), "{label} {name}");
+            assert!(
+                !case.eigen_polyhedron.in_domain && rule.needs_polyhedron(),
+                "{label} {name}"
+            );
         }
     }
 }

@@ -32,10 +32,7 @@ pub fn edge<S: Scalar>(intervals: [f64; 3]) -> [S; 2] {
     let two = || S::ratio(2, 1);
     let [a, b, c] = intervals.map(S::exact);
     let sum = two() * (a.clone() + b.clone() + c.clone());
-    [
-        (b.clone() + two() * c) / sum.clone(),
-        (b + two() * a) / sum,
-    ]
+    [(b.clone() + two() * c) / sum.clone(), (b + two() * a) / sum]
 }
 
 /// The weights of `P_(j-1), P_j, P_(j+1)` in `V_j`, from the intervals `d_(j-2), .., d_(j+1)`.

@@ -77,7 +77,7 @@ impl Subject {
                 };
                 format!("{symbol} = {}", four(lambda))
             }
-            SchemeName::File(_) => short(scheme.name()),
+            SchemeName::File(_) | SchemeName::NonUniform(_) => short(scheme.name()),
         };
         Ok(Subject {
             title,

@@ -16,6 +16,7 @@ fn quoted(word: &str) -> String {
 fn scheme(name: &SchemeName) -> String {
     match name {
         SchemeName::Spec(spec) => spec.to_string(),
+        SchemeName::NonUniform(scheme) => scheme.to_string(),
         SchemeName::File(file) => {
             let path = file.path.display().to_string();
             let path = if path.contains(',') {

@@ -168,7 +168,7 @@ fn greek(text: &str) -> String {
 fn file(topic: &Topic) -> Result<Option<eigenring_scheme::user::UserScheme>, Error> {
     match topic.name {
         SchemeName::File(file) => file.read(Reading::default()).map(Some),
-        SchemeName::Spec(_) => Ok(None),
+        SchemeName::Spec(_) | SchemeName::NonUniform(_) => Ok(None),
     }
 }
 

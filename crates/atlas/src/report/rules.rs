@@ -62,7 +62,7 @@ pub(super) fn section(topic: &Topic) -> Result<Section, Error> {
         (SchemeName::File(_), Some(file)) => (Some(file.clone()), true),
         // those of the lambda-scheme differ from valence to valence, and are tabulated
         (SchemeName::Spec(spec), _) => (like(spec)?, !matches!(spec, Spec::Lambda { .. } | Spec::LambdaOptimal)),
-        (SchemeName::File(_), None) => (None, true),
+        (SchemeName::File(_) | SchemeName::NonUniform(_), _) => (None, true),
     };
     let body = html! {
         (origin(topic))
@@ -101,6 +101,9 @@ pub(super) fn section(topic: &Topic) -> Result<Section, Error> {
 fn origin(topic: &Topic) -> Markup {
     match topic.name {
         SchemeName::File(file) => html! { p { "The scheme of the file " code { (file.path.display()) } "." } },
+        SchemeName::NonUniform(scheme) => {
+            html! { p { code { (scheme) } ", built in, with the knot intervals of the mesh." } }
+        }
         SchemeName::Spec(spec) => {
             let name = spec.to_string();
             let family = name.split(':').next().unwrap_or_default();

@@ -33,13 +33,14 @@ pub(super) fn convert(net: &Net, rule: FirstLevel, outside: Outside) -> Result<C
         let spokes = net.topology().fan(vertex).spokes;
         if net.is_irregular(vertex) {
             let d: Vec<f64> = spokes.iter().map(|&spoke| net.interval(spoke)).collect();
-            NGon::new(&d).map_err(|error| error.at(vertex))?;
+            let heads: Vec<u32> = spokes.iter().map(|&spoke| net.topology().head(spoke)).collect();
+            NGon::new(&d).map_err(|error| error.at(vertex, &heads))?;
             let found = match irregular_rows(net, vertex, &spokes, rule) {
                 Err(Error::OutsideDomain { .. }) if outside == Outside::Simple => {
                     simple.push(vertex);
                     None
                 }
-                found => Some(found.map_err(|error| error.at(vertex))?),
+                found => Some(found.map_err(|error| error.at(vertex, &heads))?),
             };
             if let Some(found) = found.flatten() {
                 for (&spoke, row) in spokes.iter().zip(found) {
@@ -90,7 +91,10 @@ fn check(net: &Net) -> Result<(), Error> {
                 "by HNUSS are three edges there, or two at a corner",
             )
         } else if !net.is_on_boundary(vertex) && valence < 3 {
-            (format!("has {valence} edges"), "by HNUSS are three and more at inner vertices")
+            (
+                format!("has {valence} edges"),
+                "by HNUSS are three and more at inner vertices",
+            )
         } else {
             continue;
         };
@@ -142,8 +146,16 @@ fn doubled(net: &Net, virtuals: &[bool], corner: u32) -> Result<Row, Error> {
     let is_virtual = |half: u32| virtuals[topology.edge(half) as usize];
     let (next, last) = (topology.next(corner), topology.previous(corner));
     let opposite = topology.next(next);
-    let p = if is_virtual(corner) { weight(net, corner, last, opposite)? } else { 0.0 };
-    let q = if is_virtual(last) { weight(net, last, corner, next)? } else { 0.0 };
+    let p = if is_virtual(corner) {
+        weight(net, corner, last, opposite)?
+    } else {
+        0.0
+    };
+    let q = if is_virtual(last) {
+        weight(net, last, corner, next)?
+    } else {
+        0.0
+    };
     Ok(Row::of([
         (topology.origin(opposite), p * q),
         (topology.head(corner), (1.0 - p) * q),
@@ -184,7 +196,7 @@ impl Groups {
             let fan = topology.fan(vertex);
             let is_virtual = |spoke: &u32| virtuals[topology.edge(*spoke) as usize];
             let start = match fan.is_closed() {
-                true => fan.spokes.iter().position(|spoke| is_virtual(spoke)).unwrap_or(0),
+                true => fan.spokes.iter().position(is_virtual).unwrap_or(0),
                 false => 0,
             };
             let mut first = Vec::new();
@@ -207,7 +219,9 @@ impl Groups {
         let topology = net.topology();
         let mut corners = self.of.clone();
         // intervals by corner of the new faces: of the edge that leaves it
-        let mut intervals: Vec<f64> = (0..topology.half_count() as u32).map(|half| net.interval(half)).collect();
+        let mut intervals: Vec<f64> = (0..topology.half_count() as u32)
+            .map(|half| net.interval(half))
+            .collect();
         let mut sizes = vec![4_usize; topology.face_count()];
         let of = |half: u32| self.of[half as usize];
         for edge in (0..topology.edge_count() as u32).filter(|&edge| virtuals[edge as usize]) {

@@ -67,9 +67,11 @@ impl HybridNet {
         let face = topology.face(half);
         let halves = topology.face_halves(face);
         // each corner makes the weights of all: n is small, and corners are few
-        let ngon = NGon::new(&self.spokes(face)).map_err(|error| error.at(topology.origin(half)))?;
+        let ngon = NGon::new(&self.spokes(face)).map_err(|error| error.at(topology.origin(half), &[]))?;
         let own = (half - halves.start) as usize;
-        let terms = halves.enumerate().map(|(j, half)| (topology.origin(half), ngon.weight(own, j)));
+        let terms = halves
+            .enumerate()
+            .map(|(j, half)| (topology.origin(half), ngon.weight(own, j)));
         Ok(table.push(terms)?)
     }
 
@@ -78,7 +80,12 @@ impl HybridNet {
         let topology = net.topology();
         let first = topology.first_spoke(number).expect("points of a net belong to faces");
         let line = |ahead: u32, back: u32| {
-            vertex::<f64>([net.beyond(back), net.interval(back), net.interval(ahead), net.beyond(ahead)])
+            vertex::<f64>([
+                net.beyond(back),
+                net.interval(back),
+                net.interval(ahead),
+                net.beyond(ahead),
+            ])
         };
         if net.is_on_boundary(number) {
             let mut last = first;
@@ -95,7 +102,11 @@ impl HybridNet {
                 net.interval(first),
                 net.beyond(first),
             ]);
-            let terms = [(topology.origin(arrives), before), (number, own), (topology.head(first), after)];
+            let terms = [
+                (topology.origin(arrives), before),
+                (number, own),
+                (topology.head(first), after),
+            ];
             return Ok(table.push(terms.into_iter().filter(|(_, weight)| *weight != 0.0))?);
         }
         let turned = |spoke: u32| topology.turned(spoke).expect("an inner vertex is closed");
@@ -157,7 +168,12 @@ impl HybridNet {
         let [s0, s1] = edge::<f64>([net.across(half + 3), net.interval(half), net.across(half + 1)]);
         let [t0, t1] = edge::<f64>([net.across(half), net.interval(half + 1), net.across(half + 2)]);
         let corner = |k: u32| topology.origin(half + k);
-        let terms = [(corner(0), s0 * t0), (corner(1), s1 * t0), (corner(2), s1 * t1), (corner(3), s0 * t1)];
+        let terms = [
+            (corner(0), s0 * t0),
+            (corner(1), s1 * t0),
+            (corner(2), s1 * t1),
+            (corner(3), s0 * t1),
+        ];
         Ok(table.push(terms)?)
     }
 

@@ -48,7 +48,7 @@ impl HybridNet {
     /// [`Error::Vertex`] for faces that are no quads and for extraordinary vertices on the boundary or with
     /// less than three edges, [`Error::ZeroSum`] where a rule divides by zero, [`Error::ZeroSpokes`], and
     /// where `outside` does not allow for it [`Error::OutsideDomain`].
-    pub fn new(net: &Net, rule: FirstLevel, outside: Outside) -> Result<Converted, Error> {
+    pub fn of(net: &Net, rule: FirstLevel, outside: Outside) -> Result<Converted, Error> {
         convert::convert(net, rule, outside)
     }
 

@@ -3,6 +3,7 @@
 //! `tests/data/nonuniform_cases.json` comes from an independent prototype in another language; it holds a part of
 //! the cases of `reference/nonuniform_cases.json` in the folder that `EIGENRING_SHARED` names, which are taken
 //! where that is set.
+#![allow(dead_code)]
 
 use serde::Deserialize;
 use std::collections::BTreeMap;

@@ -11,7 +11,7 @@ mod tension;
 pub use catmull_clark::{catmull_clark, catmull_clark_weights};
 pub use doo_sabin::doo_sabin;
 pub use half_cell::half_cell;
-pub use intervals::with_intervals;
+pub use intervals::{sector_lines, with_intervals};
 pub use split_face::SplitFace;
 pub(crate) use tension::tensions_from;
 pub use tension::{MAX_ORDER, smoothing_weights, tension, tension_at};

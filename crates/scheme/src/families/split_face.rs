@@ -36,9 +36,7 @@ impl<S: Scalar> SplitFace<S> {
             });
         }
         let ratio = |own: usize, other: usize| s(own) / (s(own) + s(other));
-        let total = (0..n).fold(S::zero(), |sum, j| {
-            sum + (s(j) + s(j + 2)) * (s(j + n - 1) + s(j + 3))
-        });
+        let total = (0..n).fold(S::zero(), |sum, j| sum + (s(j) + s(j + 2)) * (s(j + n - 1) + s(j + 3)));
         let beta = |i: usize| {
             let ahead = (s(i + n - 1) + s(i + 3)) * s(i + 2);
             let behind = (s(i + n - 2) + s(i + 2)) * s(i + n - 1);

@@ -106,8 +106,6 @@ pub(super) fn read(bytes: &[u8]) -> Result<MeshFile, Error> {
     }
     if weighted {
         file.mesh.set_weights(weights);
-        file.notices
-            .push("vertices have a fourth coordinate, which no rule here uses; it is kept".to_owned());
     }
     if coloured {
         file.notices
@@ -185,7 +183,17 @@ impl<'a> Tag<'a> {
             }
             ("knot", &[a, b], 1) => {
                 lines.edge_marks.insert(edge(a, b), line);
-                features.knots.insert(edge(a, b), sharpness()?);
+                let value = sharpness()?;
+                if let Some(before) = features
+                    .knots
+                    .insert(edge(a, b), value)
+                    .filter(|before| *before != value)
+                {
+                    return refuse(
+                        format!("edge {a}-{b} has the intervals {before} and {value}"),
+                        "is one value for an edge",
+                    );
+                }
             }
             ("interpolateboundary", &[mode], _) => {
                 features.boundary = Some(match mode {

@@ -1,0 +1,192 @@
+//! Schemes with knot intervals as users run them: files in and out, and what is refused.
+
+use crate::common::{Place, number};
+
+/// Two by two quads, and a cube.
+fn place() -> Place {
+    let place = Place::new();
+    let points = (0..9).map(|k| format!("v {} {} {}\n", k % 3, k / 3, k % 2));
+    let faces = "f 1 2 5 4\nf 2 3 6 5\nf 4 5 8 7\nf 5 6 9 8\n";
+    place.write("grid.obj", points.collect::<String>() + faces);
+    place.ok(&["make", "cube", "-o", "cube.obj"]);
+    place
+}
+
+fn with(place: &Place, name: &str, to: &str, lines: &str) {
+    let text = place.read(name) + lines;
+    place.write(to, text);
+}
+
+#[test]
+fn intervals_are_read_and_written_again() {
+    let place = place();
+    with(
+        &place,
+        "grid.obj",
+        "tags.obj",
+        "t knot 2/1/0 0 1 2\nt knot 2/1/0 4 7 0.5\n",
+    );
+    place.write("knots.csv", "v0,v1,d\n0,1,2\n4,7,0.5\n");
+    for scheme in ["nurss", "eigen-polyhedron", "hnuss"] {
+        place.ok(&[
+            "subdivide",
+            "tags.obj",
+            "--scheme",
+            scheme,
+            "--levels",
+            "2",
+            "-o",
+            "a.obj",
+        ]);
+        let from_csv = ["subdivide", "grid.obj", "--knots", "knots.csv", "--scheme", scheme];
+        place.ok(&[&from_csv[..], &["--levels", "1", "-o", "b.obj"]].concat());
+        // what is written is what goes on
+        place.ok(&["subdivide", "b.obj", "--scheme", scheme, "--levels", "1", "-o", "c.obj"]);
+        assert_eq!(place.read("a.obj"), place.read("c.obj"), "{scheme}");
+        assert!(
+            place.read("b.obj").contains("t knot 2/1/0 0 9 1.0\n"),
+            "{}",
+            place.read("b.obj")
+        );
+    }
+    // level 0 of HNUSS is the hybrid net
+    let net = place.json("subdivide cube.obj --scheme hnuss --levels 0");
+    assert_eq!((number(&net, "vertices"), number(&net, "faces")), (24.0, 26.0));
+    // weights are homogeneous, and written again
+    let weighted = place.read("grid.obj").replacen("v 1 1 0", "v 1 1 0 5", 1);
+    assert!(weighted.contains("v 1 1 0 5"));
+    place.write("weights.obj", weighted);
+    place.ok(&["subdivide", "weights.obj", "--scheme", "hnuss", "-o", "w.obj"]);
+    let first = place.read("w.obj").lines().nth(4).unwrap().to_owned();
+    // the middle vertex: (5 * 36 + 6 * 4 + 1 * 4)/64
+    let weight: f64 = first.split(' ').nth(4).unwrap().parse().unwrap();
+    assert!((weight - 208.0 / 64.0).abs() < 1e-15, "{first}");
+}
+
+#[test]
+fn what_has_no_rule_is_refused_with_the_element() {
+    let place = place();
+    let refused = |file: &str, scheme: &str, words: &[&str]| {
+        let run = place.run(&["subdivide", file, "--scheme", scheme, "--levels", "2"]);
+        assert_eq!(run.code, Some(2), "{file} {scheme}: {}", run.stdout);
+        assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
+        for word in words {
+            assert!(run.stderr.contains(word), "{word}: {}", run.stderr);
+        }
+    };
+    let knot = |a: u32, b: u32, d: &str| format!("t knot 2/1/0 {a} {b} {d}\n");
+    let cases: [(&str, String, &str, &[&str]); 11] = [
+        ("grid.obj", knot(0, 1, "-1"), "nurss", &["line 14", "-1"]),
+        ("grid.obj", knot(0, 1, "nan"), "nurss", &["line 14"]),
+        ("grid.obj", knot(0, 1, "inf"), "hnuss", &["line 14"]),
+        (
+            "grid.obj",
+            knot(0, 1, "1") + &knot(6, 7, "2"),
+            "hnuss",
+            &["0-1 (1)", "6-7 (2)"],
+        ),
+        (
+            "grid.obj",
+            knot(0, 1, "1") + &knot(0, 1, "2"),
+            "hnuss",
+            &["line 15", "0-1"],
+        ),
+        ("grid.obj", knot(0, 8, "1"), "eigen-polyhedron", &["0-8"]),
+        (
+            "grid.obj",
+            "t extraordinary 1/0/0 1\n".to_owned(),
+            "hnuss",
+            &["vertex 1", "boundary"],
+        ),
+        (
+            "grid.obj",
+            "t crease 2/1/0 3 4 1\n".to_owned(),
+            "hnuss",
+            &["vertex 3", "crease"],
+        ),
+        (
+            "grid.obj",
+            "v 5 5 5\nv 5 6 5\nf 3 2 10 11\n".to_owned(),
+            "hnuss",
+            &["vertex 1", "boundary"],
+        ),
+        (
+            "cube.obj",
+            knot(0, 1, "0") + &knot(0, 3, "0") + &knot(0, 4, "0"),
+            "hnuss",
+            &["vertex"],
+        ),
+        ("cube.obj", knot(0, 1, "1e5"), "eigen-polyhedron", &["vertex 0", "9.62"]),
+    ];
+    for (from, lines, scheme, words) in cases {
+        with(&place, from, "bad.obj", &lines);
+        refused("bad.obj", scheme, words);
+    }
+    // an odd face with unequal intervals, and one with equal ones
+    place.ok(&["make", "tetrahedron", "-o", "t.obj"]);
+    with(&place, "t.obj", "bad.obj", &knot(0, 1, "2"));
+    refused("bad.obj", "nurss", &["face 0", "0-1 (2)"]);
+    place.ok(&["subdivide", "t.obj", "--scheme", "hnuss"]);
+    // weights
+    place.write("bad.obj", place.read("grid.obj").replacen("v 1 1 0", "v 1 1 0 -5", 1));
+    refused("bad.obj", "hnuss", &["vertex 4", "-5"]);
+    // where the eigen-polyhedron does not exist, the simple rule may be asked for
+    with(&place, "cube.obj", "far.obj", &knot(0, 1, "1e5"));
+    refused("far.obj", "hnuss", &["eigen-polyhedron"]);
+    let run = place.run(&["subdivide", "far.obj", "--scheme", "hnuss", "--outside", "simple"]);
+    assert!(
+        run.code == Some(0) && run.stderr.contains("simple rule"),
+        "{}",
+        run.stderr
+    );
+    // options without effect
+    for bad in [
+        "subdivide cube.obj --scheme hnuss --boundary corner",
+        "subdivide cube.obj --scheme nurss --outside simple",
+        "subdivide cube.obj --scheme catmull-clark --knots knots.csv",
+        "spectrum --scheme hnuss --knots 1,2,3 -N 4",
+        "spectrum --scheme hnuss --knots 1,2,-3",
+        "spectrum --scheme hnuss --knots 0,1,0,1,1",
+        "spectrum --scheme eigen-polyhedron --knots 10,1,10,1,10,1",
+        "render cube.obj --schemes hnuss --show shaded -o a.png",
+    ] {
+        let arguments: Vec<&str> = bad.split(' ').collect();
+        let run = place.run(&arguments);
+        assert_eq!(
+            (run.code, run.stderr.lines().count()),
+            (Some(2), 1),
+            "{bad}: {}",
+            run.stderr
+        );
+    }
+}
+
+#[test]
+fn spectra_have_the_numbers_of_the_papers() {
+    let place = Place::new();
+    let leading = |scheme: &str, knots: &str| {
+        let answer = place.json(&format!("spectrum --scheme {scheme} --knots {knots}"));
+        let list = answer["eigenvalues"].as_array().unwrap().clone();
+        let repeated = list.iter().flat_map(|e| {
+            let count = e["multiplicity"].as_u64().unwrap() as usize;
+            std::iter::repeat_n(number(e, "re"), count)
+        });
+        repeated.take(4).collect::<Vec<f64>>()
+    };
+    // unequal eigenvalues of NURSS, double ones of the others
+    let nurss = leading("nurss", "10,1,1,10,1,1");
+    assert!(
+        (nurss[1] - 0.9166).abs() < 5e-5 && (nurss[2] - 0.5368).abs() < 5e-5,
+        "{nurss:?}"
+    );
+    let polyhedron = leading("eigen-polyhedron", "10,1,1,10,1,1");
+    assert!(
+        (polyhedron[1] - polyhedron[2]).abs() < 1e-12 && polyhedron[3] < polyhedron[2],
+        "{polyhedron:?}"
+    );
+    let hnuss = leading("hnuss", "1,10,1,10,1");
+    assert!(
+        (hnuss[1] - 0.5).abs() < 1e-12 && (hnuss[2] - 0.5).abs() < 1e-12 && hnuss[3] < 0.5,
+        "{hnuss:?}"
+    );
+}
