@@ -106,8 +106,8 @@ pub fn read_with_intervals(path: &Path) -> Result<(Mesh, Vec<String>), Error> {
     Ok((mesh, notices))
 }
 
-/// Adds knot intervals to those of a mesh: three columns, two vertices and the interval of their edge, with or
-/// without a header.
+/// Adds knot intervals to those of a mesh: three columns, two vertices and the interval of their edge, with
+/// or without a header.
 ///
 /// # Errors
 /// [`Error::Read`], [`Error::InFile`] with the line; two values for one edge, here or in the mesh.

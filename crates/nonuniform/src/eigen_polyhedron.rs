@@ -1,17 +1,18 @@
 //! Subdivision by an eigen-polyhedron (Li, Finnigan and Sederberg 2016, as in Eqs. 8 to 13 of Li, Wei and
 //! Zhang 2019).
 //!
-//! The first level is [NURSS](crate::nurss). From then on the matrix N is constant, and made such that a given
-//! polyhedron in the plane is an eigenvector of it. With `c = cos(2 pi/n)`,
+//! The first level is [NURSS](crate::nurss). From then on the matrix N is constant, and made such that a
+//! given polyhedron in the plane is an eigenvector of it. With `c = cos(2 pi/n)`,
 //!
 //! ```text
 //! gamma = 4/(c + 1 + sqrt((c+9)(c+1))),   lambda = (1+gamma)/(4 gamma)        (that of Catmull-Clark)
 //! d-_i = (d_(i-2) d_(i+1) + d_(i+2) d_(i-1))/(d_(i-1) + d_(i+1)),   l_i = (2 d_i + d-_i)/3
-//! V^ = 0,   E^_i = l_i (cos, sin)(2 pi i/n),   F^_i = gamma (E^_i + E^_(i+1)),   V- = row V of NURSS on these
+//! V^ = 0,   E^_i = l_i (cos, sin)(2 pi i/n),   F^_i = gamma (E^_i + E^_(i+1))
+//! V- = row V of NURSS on these
 //! ```
 //!
-//! Face points are bilinear, with weights alpha such that F^_i goes to V- + lambda F^_i; edge points are, with
-//! weights beta such that E^_i goes to V- + lambda E^_i. So `N P^ = V- + lambda P^`.
+//! Face points are bilinear, with weights alpha such that F^_i goes to V- + lambda F^_i; edge points are,
+//! with weights beta such that E^_i goes to V- + lambda E^_i. So `N P^ = V- + lambda P^`.
 //!
 //! The scheme exists where all alpha and beta lie in [0, 1]. That depends on the intervals:
 //! [`safe_ratio`] says up to which `max d/min d` it does for all of them. Beyond [0, 1] there may be real

@@ -8,14 +8,16 @@
 //! p_i = d_(i-1)/(d_(i-1) + d_(i+1) + a_(i+1)),   q_i = d_(i+2)/(d_(i+2) + d_i + a_i)
 //! ```
 //!
-//! **Improved** and **printed** take limit and tangent plane from the [eigen-polyhedron](crate::eigen_polyhedron).
-//! With M of the first level, N of the others, M^0 and N^ their rows and columns of E and F, minus the row of
-//! V, the projector Q on the eigenspace lambda of N^, and L0 the limit weights of N,
+//! **Improved** and **printed** take limit and tangent plane from the
+//! [eigen-polyhedron](crate::eigen_polyhedron). With M of the first level, N of the others, M^0 and N^ their
+//! rows and columns of E and F, minus the row of V, the projector Q on the eigenspace lambda of N^, and L0
+//! the limit weights of N,
 //!
 //! ```text
 //! C = L0 M P,     P_i = C + V-_i - sum_j v_j V-_j,      v the limit weights of Q_n
 //! printed    V-_i = [diag(c) M^0 Q P^]_(n+i),  c_i = 2 d-_i/(2 d-_i + d_i),  c_(n+i) = (c_i + c_(i+1))/2
-//! improved   V-_i = gamma (c_i e_i + c_(i+1) e_(i+1)),  e = first n entries of Q M^0 P^,  c_i = 2 d_i/(2 d_i + d-_i)
+//! improved   V-_i = gamma (c_i e_i + c_(i+1) e_(i+1)),   c_i = 2 d_i/(2 d_i + d-_i),
+//!            e the first n entries of Q M^0 P^
 //! ```
 //!
 //! The step M comes first, so that the surface's tangents are those of Q M and not of M Q, and `(2 d_i +

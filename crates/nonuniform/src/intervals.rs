@@ -3,9 +3,9 @@
 use crate::error::{Error, Marked};
 use eigenring_surface::Topology;
 
-/// One interval for each edge: finite, not negative, and the same on opposite edges of a quad, that is on each
-/// *strip* of quads. Around a face of another size the edges before and after each edge have one interval,
-/// since its split makes them opposite.
+/// One interval for each edge: finite, not negative, and the same on opposite edges of a quad, that is on
+/// each *strip* of quads. Around a face of another size the edges before and after each edge have one
+/// interval, since its split makes them opposite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KnotIntervals {
     by_edge: Vec<f64>,

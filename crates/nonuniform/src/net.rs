@@ -151,8 +151,8 @@ impl Net {
         self.interval(self.topology.previous(half))
     }
 
-    /// The interval of the neighbouring face across the edge: beyond a boundary the face's own, mirrored. This
-    /// gives every interval that regular rules need.
+    /// The interval of the neighbouring face across the edge: beyond a boundary the face's own, mirrored.
+    /// This gives every interval that regular rules need.
     pub fn across(&self, half: u32) -> f64 {
         self.transversal(self.topology.twin(half).unwrap_or(half))
     }

@@ -1,7 +1,7 @@
 //! The extraordinary n-gon of HNUSS (Li, Wei and Zhang 2019) in closed form.
 //!
-//! Its corners go to `P' = Q_n P` with the rule of [`SplitFace`]. With `A = diag(n alpha_i)` and the projector
-//! Pi on the Fourier modes 0 and +-1,
+//! Its corners go to `P' = Q_n P` with the rule of [`SplitFace`]. With `A = diag(n alpha_i)` and the
+//! projector Pi on the Fourier modes 0 and +-1,
 //!
 //! ```text
 //! Q_n = I/2 + 1 beta^T/2 - A (I - Pi)
@@ -15,9 +15,9 @@
 //! sum_i (cos th_i - m)/alpha_i P_i,   m = sum (cos th_i/alpha_i) / sum (1/alpha_i),   th_i = 2 pi i/n
 //! ```
 //!
-//! and the same with sines. Where `d_z+1 = 0`, alpha_z and alpha_(z+1) vanish, and tangents are `P_z - P_(z+1)`
-//! and `sum_(j != z, z+1) g_j/alpha_j (P_j - P_z)`, `g_j = cos(th_j - th_z - pi/n) - cos(pi/n)`; where three
-//! vanish, the differences of these corners.
+//! and the same with sines. Where `d_z+1 = 0`, alpha_z and alpha_(z+1) vanish, and tangents are `P_z -
+//! P_(z+1)` and `sum_(j != z, z+1) g_j/alpha_j (P_j - P_z)`, `g_j = cos(th_j - th_z - pi/n) - cos(pi/n)`;
+//! where three vanish, the differences of these corners.
 
 use crate::{Error, Spokes};
 use eigenring_scheme::Scalar;

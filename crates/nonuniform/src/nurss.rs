@@ -8,7 +8,8 @@
 //! w_i  = (d_(i-2) + d_(i+2) + d_i) / (d_(i-2) + d_(i+2) + 2 d_i + 2 a_i),       M_i = w_i E_i + (1-w_i) V
 //! F_i' = w_i w_(i+1) F_i + (1-w_i) w_(i+1) E_(i+1) + w_i (1-w_(i+1)) E_i + (1-w_i)(1-w_(i+1)) V
 //! E_i' = M_i/2 + (d_(i-1) F_i' + d_(i+1) F_(i-1)') / (2 (d_(i-1) + d_(i+1)))
-//! V'   = (n-3)/n V + 3/n sum (m_i M_i + f_i F_i') / sum (m_i + f_i),   f_i = d_(i-1) d_(i+2), m_i = f_i + f_(i-1)
+//! V'   = (n-3)/n V + 3/n sum (m_i M_i + f_i F_i') / sum (m_i + f_i)
+//! f_i  = d_(i-1) d_(i+2),   m_i = f_i + f_(i-1)
 //! ```
 //!
 //! At n = 4 these are the tensor product of univariate rules, and V' is taken in the form that has the right

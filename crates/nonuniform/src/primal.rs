@@ -3,17 +3,17 @@
 //! Every face is split as by Catmull-Clark, zero intervals too. In this order, with the averages that
 //! [`Net::behind`] takes,
 //!
-//! * **face points** of quads are bilinear, with univariate weights in both directions; at an irregular corner
-//!   the interval behind it is the mean of both sides, and with two of them at one end the mean of these. Of
-//!   other faces they are the mean of the corners;
+//! * **face points** of quads are bilinear, with univariate weights in both directions; at an irregular
+//!   corner the interval behind it is the mean of both sides, and with two of them at one end the mean of
+//!   these. Of other faces they are the mean of the corners;
 //! * **edge points** are half the point M on the edge, and half the mean of the face points beside it, each
 //!   weighed by the interval of the other face. On a boundary they are M;
 //! * **vertex points** are the univariate rule of edge points across a line and of M along it (Eq. 3); at
 //!   irregular vertices Eq. 7, on boundaries the curve's rule, and a vertex of one face stays.
 //!
-//! Eigen-polyhedra replace points V, `E_i` and `F_i` around irregular vertices, from the second level on. Face
-//! points are read by all rules around; the vertex point of `E_i` reads the edge points across its spoke and
-//! never that of the spoke.
+//! Eigen-polyhedra replace points V, `E_i` and `F_i` around irregular vertices, from the second level on.
+//! Face points are read by all rules around; the vertex point of `E_i` reads the edge points across its spoke
+//! and never that of the spoke.
 
 use crate::row::Row;
 use crate::{EigenPolyhedron, Error, KnotIntervals, Net, nurss};
@@ -294,8 +294,8 @@ pub(crate) fn around(topology: &Topology, vertex: u32, spokes: &[u32]) -> Vec<u3
     [vertex].into_iter().chain(edges).chain(faces).collect()
 }
 
-/// The net of quads: both halves of an edge have half its interval, an edge within a face half of the edge that
-/// it runs along.
+/// The net of quads: both halves of an edge have half its interval, an edge within a face half of the edge
+/// that it runs along.
 fn split(net: &Net) -> Result<Net, Error> {
     let mesh = quads(net.mesh(), net.topology());
     let topology = Topology::unchecked(&mesh);

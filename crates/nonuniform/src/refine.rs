@@ -75,7 +75,8 @@ pub struct Refined {
     pub simple: Vec<u32>,
 }
 
-/// A control mesh and nets that follow from it, each with the sparse map that makes its points of those before.
+/// A control mesh and nets that follow from it, each with the sparse map that makes its points of those
+/// before.
 #[derive(Clone, Debug)]
 pub struct Refinement {
     scheme: Scheme,

@@ -117,8 +117,8 @@ impl Mesh {
         self.points
     }
 
-    /// Fourth coordinates, weights of rational surfaces, if the mesh came with such. No rule of this crate uses
-    /// them.
+    /// Fourth coordinates, weights of rational surfaces, if the mesh came with such. No rule of this crate
+    /// uses them.
     pub fn weights(&self) -> Option<&[f64]> {
         self.weights.as_deref()
     }

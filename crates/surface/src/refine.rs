@@ -35,8 +35,9 @@ pub(crate) struct Step {
     pub net: Option<DualNet>,
 }
 
-/// The quads of a mesh, one for each corner of a face: the corner, the edge that leaves it, the face, the edge
-/// before. Points are not set; vertices come first, edges next, in the order of the topology, then faces.
+/// The quads of a mesh, one for each corner of a face: the corner, the edge that leaves it, the face, the
+/// edge before. Points are not set; vertices come first, edges next, in the order of the topology, then
+/// faces.
 pub fn quads(mesh: &Mesh, topology: &Topology) -> Mesh {
     Split::new(mesh, topology).mesh
 }

@@ -2,8 +2,8 @@
 //!
 //! A quad with zero intervals in both directions stays, one with zero intervals in one direction becomes two,
 //! others four; n-gons stay. Corners of n-gons have the rule of [`NGon`], all other points the tensor product
-//! of [univariate rules](eigenring_spline::intervals), which holds with zero intervals as it stands. Points of
-//! vertices come first, those of edges next, in the order of the edges, then those of faces.
+//! of [univariate rules](eigenring_spline::intervals), which holds with zero intervals as it stands. Points
+//! of vertices come first, those of edges next, in the order of the edges, then those of faces.
 
 use super::HybridNet;
 use crate::{Error, KnotIntervals, NGon, Net, Step};

@@ -1,8 +1,8 @@
 //! Hybrid nets: the net that HNUSS makes of a mesh first, and its refinement.
 //!
-//! All inner vertices of a hybrid net have valence 4. Its faces are quads, of which some have zero intervals in
-//! one direction (a doubled line) or in both (where two such lines cross), and extraordinary n-gons, one for
-//! each irregular vertex of the mesh.
+//! All inner vertices of a hybrid net have valence 4. Its faces are quads, of which some have zero intervals
+//! in one direction (a doubled line) or in both (where two such lines cross), and extraordinary n-gons, one
+//! for each irregular vertex of the mesh.
 
 mod convert;
 mod halve;

@@ -1,8 +1,8 @@
 //! The reference cases, and pseudo-random numbers.
 //!
-//! `tests/data/nonuniform_cases.json` comes from an independent prototype in another language; it holds a part of
-//! the cases of `reference/nonuniform_cases.json` in the folder that `EIGENRING_SHARED` names, which are taken
-//! where that is set.
+//! `tests/data/nonuniform_cases.json` comes from an independent prototype in another language; it holds a
+//! part of the cases of `reference/nonuniform_cases.json` in the folder that `EIGENRING_SHARED` names, which
+//! are taken where that is set.
 #![allow(dead_code)]
 
 use serde::Deserialize;

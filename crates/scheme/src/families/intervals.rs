@@ -91,8 +91,8 @@ fn lines<S: Scalar>(intervals: &[Vec<f64>], doubled: bool) -> Vec<[crate::Line<S
     (0..n).map(|i| [rule(i + 2, i), rule(i + n - 1, i + 1)]).collect()
 }
 
-/// The two rules of each sector around a vertex with these intervals of its spokes, of which the last holds for
-/// all further edges: along its own spoke and along the next.
+/// The two rules of each sector around a vertex with these intervals of its spokes, of which the last holds
+/// for all further edges: along its own spoke and along the next.
 pub fn sector_lines<S: Scalar>(intervals: &[Vec<f64>]) -> Vec<[crate::Line<S>; 2]> {
     lines(intervals, false)
 }

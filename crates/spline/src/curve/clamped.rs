@@ -1,10 +1,10 @@
 //! Ends where a polynomial curve meets its control polygon: k-fold knots.
 //!
-//! Knots of order k over m intervals are `t_j = clamp(j - (k-1), 0, m)`, j = 0 .. m+2k-2. One recursion serves
-//! both questions: with the same x at every step it is de Boor's for the k functions that do not vanish on an
-//! interval, with other arguments `x_1, .., x_{k-1}` it gives the weights of the polar form there (Ramshaw
-//! 1989). A refined control point is the polar form at k-1 consecutive knots of the finer sequence, which is
-//! the Oslo algorithm (Cohen, Lyche, Riesenfeld 1980).
+//! Knots of order k over m intervals are `t_j = clamp(j - (k-1), 0, m)`, j = 0 .. m+2k-2. One recursion
+//! serves both questions: with the same x at every step it is de Boor's for the k functions that do not
+//! vanish on an interval, with other arguments `x_1, .., x_{k-1}` it gives the weights of the polar form
+//! there (Ramshaw 1989). A refined control point is the polar form at k-1 consecutive knots of the finer
+//! sequence, which is the Oslo algorithm (Cohen, Lyche, Riesenfeld 1980).
 
 /// A clamped sequence of knots: the integers from 0 to m, the ends k-fold.
 #[derive(Clone, Copy, Debug)]

@@ -22,10 +22,10 @@
 //! `2n - k + 1`, exactly those of twice as many intervals over the same domain: the polygon shrinks from
 //! level to level, the curve does not. `m` levels leave `2^m (n-k+1) + k-1`.
 //!
-//! A **clamped** polygon, at `u0 = 1`, has k-fold knots at its ends, starts in its first control point and ends
-//! in its last: n points make the n-k+1 intervals of `[0, n-k+1]`, point i belongs to the mean of its k-1
-//! inner knots, and a level has `2n - k + 1` points, by the Oslo algorithm. No such ends of the generalised
-//! basis are published. Order 2, the control polygon itself, exists at `u0 = 1` alone.
+//! A **clamped** polygon, at `u0 = 1`, has k-fold knots at its ends, starts in its first control point and
+//! ends in its last: n points make the n-k+1 intervals of `[0, n-k+1]`, point i belongs to the mean of its
+//! k-1 inner knots, and a level has `2n - k + 1` points, by the Oslo algorithm. No such ends of the
+//! generalised basis are published. Order 2, the control polygon itself, exists at `u0 = 1` alone.
 //!
 //! A direction is an [`Axis`]; a [`Curve`] is an axis with points, a [`Grid`] two of them (Algorithm 1), and
 //! [`Grid::revolution`] makes one from a curve (Algorithm 2).
