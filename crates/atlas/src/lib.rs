@@ -69,6 +69,7 @@ pub mod limits;
 pub mod matrix;
 pub mod meshes;
 pub mod numbers;
+pub mod on_mesh;
 pub mod progress;
 pub mod render;
 pub mod report;

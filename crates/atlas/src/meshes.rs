@@ -1,6 +1,7 @@
 //! Mesh files, what they hold, and their refinement by a scheme of any name.
 
 use crate::error::{Accepted, Error};
+use crate::on_mesh::OnMesh;
 use crate::schemes::{SchemeName, Tuner};
 use eigenring_scheme::user::Reading;
 use eigenring_scheme::{Definition, Spec};
@@ -311,8 +312,10 @@ impl Fields {
 ///
 /// # Errors
 /// Those of reading a scheme file and of tuning; [`Error::Usage`] for a map under another scheme.
-pub fn rules(name: &SchemeName, mesh: &Mesh, lambdas: &[(u32, f64)], tuner: &Tuner<'_>) -> Result<Rules, Error> {
+pub fn rules(scheme: &OnMesh, mesh: &Mesh, lambdas: &[(u32, f64)], tuner: &Tuner<'_>) -> Result<Rules, Error> {
+    let name = &scheme.name;
     let mut rules = Rules::new(name.definition(Reading::default())?);
+    rules.steps = scheme.steps;
     let SchemeName::Spec(spec) = name else {
         return if lambdas.is_empty() { Ok(rules) } else { Err(no_map()) };
     };

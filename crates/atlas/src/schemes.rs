@@ -452,7 +452,7 @@ pub(crate) fn stem(path: &Path) -> String {
 
 /// Splits a list of specs at commas that are not between quotes. A piece `name=value` continues the spec
 /// before it, any other begins a new one.
-fn split(list: &str) -> Vec<String> {
+pub(crate) fn split(list: &str) -> Vec<String> {
     let mut quoted = false;
     let pieces = list.split(|letter| {
         quoted ^= letter == '"';

@@ -5,6 +5,7 @@ use crate::progress::Terminal;
 use crate::valences;
 use clap::{Args, ValueEnum};
 use eigenring_atlas::cache::Cache;
+use eigenring_atlas::on_mesh::{OnMesh, OnMeshList};
 use eigenring_atlas::schemes::{self, SchemeList, SchemeName, Tuner};
 use eigenring_scheme::lambda::Bounds;
 use eigenring_scheme::{Number, Shape};
@@ -211,6 +212,30 @@ impl OneScheme {
     }
 }
 
+/// One scheme on a mesh.
+#[derive(Args, Clone, Debug)]
+pub struct SchemeOnMesh {
+    /// The scheme: see 'eigenring --help'. Even orders take cs=C, the number of smoothing steps in which
+    /// creases act
+    #[arg(long, value_name = "SPEC")]
+    scheme: OnMesh,
+    #[command(flatten)]
+    settings: SchemeSettings,
+}
+
+impl SchemeOnMesh {
+    /// The scheme with its parameters set.
+    ///
+    /// # Errors
+    /// Those of [`SchemeSettings::apply`].
+    pub fn scheme(&self) -> Result<OnMesh, Error> {
+        Ok(OnMesh {
+            name: self.settings.apply(self.scheme.name.clone())?,
+            steps: self.scheme.steps,
+        })
+    }
+}
+
 /// Which control points of which level.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct NetArgs {
@@ -290,6 +315,39 @@ impl Schemes {
     /// Whether any was given.
     pub fn given(&self) -> bool {
         !self.lists.is_empty()
+    }
+}
+
+/// Schemes on a mesh as a list, or one by one.
+#[derive(Args, Clone, Debug)]
+pub struct SchemesOnMesh {
+    /// Schemes, separated by commas, or --schemes for each; see 'eigenring --help'. Even orders take cs=C,
+    /// the number of smoothing steps in which creases act
+    #[arg(long = "schemes", value_name = "SPEC,SPEC,..", required = true)]
+    lists: Vec<OnMeshList>,
+    #[command(flatten)]
+    settings: SchemeSettings,
+}
+
+impl SchemesOnMesh {
+    /// All that were given. Parameters are set in the files among them.
+    ///
+    /// # Errors
+    /// Parameters, and no file.
+    pub fn all(&self) -> Result<Vec<OnMesh>, Error> {
+        let given = || self.lists.iter().flat_map(|list| &list.0);
+        let has_file = given().any(|scheme| matches!(scheme.name, SchemeName::File(_)));
+        let set = |scheme: &OnMesh| -> Result<OnMesh, Error> {
+            if has_file && !matches!(scheme.name, SchemeName::File(_)) {
+                return Ok(scheme.clone());
+            }
+            let name = self.settings.apply(scheme.name.clone())?;
+            Ok(OnMesh {
+                name,
+                steps: scheme.steps,
+            })
+        };
+        given().map(set).collect()
     }
 }
 

@@ -1,5 +1,6 @@
 //! What is marked on a mesh: creases, corners, and how its boundary is treated.
 
+use crate::Error;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Sharpness from which on an edge or a vertex stays sharp at every level.
@@ -95,6 +96,21 @@ impl Features {
         all.copied()
             .filter(|&sharpness| sharpness < INFINITE)
             .fold(0.0, f64::max)
+    }
+
+    /// Refuses creases and vertices that act in more smoothing steps than a level has; `default` is what
+    /// those have that do not say so.
+    pub(crate) fn check_steps(&self, default: Option<usize>, full: u32) -> Result<(), Error> {
+        let given = self.edge_steps.values().chain(self.vertex_steps.values()).copied();
+        let default = default.map(|steps| u32::try_from(steps).unwrap_or(u32::MAX));
+        match given.chain(default).find(|&steps| steps > full) {
+            Some(steps) => Err(Error::Range {
+                what: "cs",
+                given: steps.to_string(),
+                accepted: format!("0 to {full}, the smoothing steps of a level"),
+            }),
+            None => Ok(()),
+        }
     }
 
     /// The largest number of a point that is marked.

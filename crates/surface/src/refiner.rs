@@ -64,6 +64,9 @@ impl<'a> Refiner<'a> {
         if levels == 0 {
             return Ok(mesh);
         }
+        if let Method::Even { order, .. } = self.rules.method()? {
+            mesh.features.check_steps(self.rules.steps, (order / 2 - 1) as u32)?;
+        }
         if let Method::Odd { .. } = self.rules.method()? {
             let boundary = self.boundary_of(&mesh);
             if levels > 1 && self.cuts_corners_only(&mesh)? {

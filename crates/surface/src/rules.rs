@@ -66,6 +66,17 @@ impl Rules {
         }
     }
 
+    /// The same rules for meshes on which creases that act in some steps only say so themselves.
+    pub(crate) fn with_all_steps(&self) -> Rules {
+        Rules {
+            definitions: self.definitions.clone(),
+            by_vertex: self.by_vertex.clone(),
+            by_valence: self.by_valence.clone(),
+            steps: None,
+            inner: Mutex::default(),
+        }
+    }
+
     /// Whether special rules reach farther than the vertex itself.
     pub(crate) fn reaches_beyond_vertex(&self) -> bool {
         !matches!(

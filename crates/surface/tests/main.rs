@@ -4,5 +4,6 @@
 mod common;
 mod files;
 mod limits;
+mod partial_creases;
 mod references;
 mod tension_limits;

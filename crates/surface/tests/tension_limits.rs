@@ -300,16 +300,3 @@ fn curvature_beside_a_centre_keeps_its_digits() {
         }
     }
 }
-
-#[test]
-fn creases_with_fewer_steps_are_refused() {
-    let path = own("tension_meshes").join("cube_loop_limits.json");
-    let mut control = mesh(&json(&path));
-    control.features.creases.insert([4, 5], 10.0);
-    control.features.edge_steps.insert([4, 5], 1);
-    let error = Surface::new(&control, &rules("tension:order=6,u0=1"))
-        .unwrap_err()
-        .to_string();
-    assert!(error.contains("edge 4 5") && error.contains("cs = 2"), "{error}");
-    assert!(Surface::new(&control, &rules("tension:order=4,u0=1")).is_ok());
-}

@@ -1,7 +1,7 @@
 //! `eigenring curvature`: extremes, integrals and irregular centres of a surface.
 
 use super::subdivide::SurfaceArgs;
-use crate::args::{self, OneScheme};
+use crate::args::{self, SchemeOnMesh};
 use crate::error::Error;
 use crate::output::Output;
 use clap::Args;
@@ -24,7 +24,7 @@ pub struct Arguments {
     #[arg(value_name = "FILE")]
     file: PathBuf,
     #[command(flatten)]
-    scheme: OneScheme,
+    scheme: SchemeOnMesh,
     /// Samples in each direction of a face, for the extremes
     #[arg(long, value_name = "n", default_value_t = 8, value_parser = args::count, allow_negative_numbers = true)]
     per_face: usize,
@@ -67,7 +67,7 @@ impl Arguments {
             return Err(Error::range("per-face", self.per_face, "1 to 1000"));
         }
         let mesh = self.surface.mesh(&self.file)?;
-        let rules = self.surface.rules(&self.scheme.name()?, &mesh)?;
+        let rules = self.surface.rules(&self.scheme.scheme()?, &mesh)?;
         let topology = Topology::new(&mesh).map_err(eigenring_surface::Error::from)?;
         let facts = Facts::of(&mesh, &topology);
         let smooth = facts.boundary_loops.is_empty() && facts.features.sharp_edges == 0;

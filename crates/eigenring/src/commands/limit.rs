@@ -1,7 +1,7 @@
 //! `eigenring limit`: exact points of a surface.
 
 use super::subdivide::SurfaceArgs;
-use crate::args::{self, OneScheme};
+use crate::args::{self, SchemeOnMesh};
 use crate::error::Error;
 use crate::memory;
 use crate::output::Output;
@@ -26,7 +26,7 @@ pub struct Arguments {
     #[arg(value_name = "FILE")]
     file: PathBuf,
     #[command(flatten)]
-    scheme: OneScheme,
+    scheme: SchemeOnMesh,
     /// A CSV file with columns `face,sub,s,t[,corner]`
     #[arg(long, value_name = "P.csv")]
     points: Option<PathBuf>,
@@ -53,7 +53,7 @@ impl Arguments {
         self.surface.start()?;
         let format = self.output.format()?;
         let mesh = self.surface.mesh(&self.file)?;
-        let rules = self.surface.rules(&self.scheme.name()?, &mesh)?;
+        let rules = self.surface.rules(&self.scheme.scheme()?, &mesh)?;
         let in_file = |error: eigenring_surface::Error| eigenring_atlas::Error::from(error).in_file(&self.file);
         let surface = Surface::new(&mesh, &rules).map_err(in_file)?;
         if self.vertices {

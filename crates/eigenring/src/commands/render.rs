@@ -1,7 +1,7 @@
 //! `eigenring render`: pictures of surfaces.
 
 use super::subdivide::SurfaceArgs;
-use crate::args::{self, Schemes};
+use crate::args::{self, SchemesOnMesh};
 use crate::error::Error;
 use crate::files;
 use clap::{Args, ValueEnum};
@@ -23,7 +23,7 @@ pub struct Arguments {
     #[arg(value_name = "FILE")]
     file: PathBuf,
     #[command(flatten)]
-    schemes: Schemes,
+    schemes: SchemesOnMesh,
     /// What is shown
     #[arg(long, value_enum, default_value = "shaded")]
     show: ShowArg,
@@ -118,7 +118,7 @@ impl Arguments {
         self.surface.start()?;
         let settings = self.settings()?;
         let mesh = self.surface.mesh(&self.file)?;
-        let schemes = self.schemes.required()?;
+        let schemes = self.schemes.all()?;
         if schemes.len() > 8 {
             return Err(Error::range("number of schemes", schemes.len(), "1 to 8"));
         }
@@ -127,9 +127,9 @@ impl Arguments {
             .map(|scheme| self.surface.rules(scheme, &mesh))
             .collect::<Result<_, _>>()?;
         let in_file = |error: eigenring_surface::Error| eigenring_atlas::Error::from(error).in_file(&self.file);
-        let surfaces = rules.iter().map(|rules| {
+        let surfaces = rules.iter().zip(&schemes).map(|(rules, scheme)| {
             let surface = Surface::new(&mesh, rules).map_err(in_file)?;
-            Ok((rules.definition().name(), surface))
+            Ok((scheme.called(&rules.definition().name()), surface))
         });
         let surfaces: Vec<_> = surfaces.collect::<Result<_, Error>>()?;
         let page = render(&surfaces, &settings)?;

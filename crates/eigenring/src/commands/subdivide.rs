@@ -1,6 +1,6 @@
 //! `eigenring subdivide`: a mesh refined by a scheme.
 
-use crate::args::{self, OneScheme};
+use crate::args::{self, SchemeOnMesh};
 use crate::error::Error;
 use crate::files;
 use crate::memory;
@@ -9,6 +9,7 @@ use crate::progress::note;
 use crate::threads::Threads;
 use clap::{Args, ValueEnum};
 use eigenring_atlas::meshes::{self, Pool};
+use eigenring_atlas::on_mesh::OnMesh;
 use eigenring_atlas::schemes::SchemeName;
 use eigenring_atlas::table::{Format, pretty};
 use eigenring_nonuniform::{Outside, Scheme as NonUniform};
@@ -29,7 +30,7 @@ pub struct Arguments {
     #[arg(value_name = "FILE")]
     file: PathBuf,
     #[command(flatten)]
-    scheme: OneScheme,
+    scheme: SchemeOnMesh,
     /// Levels of refinement
     #[arg(long, value_name = "COUNT", default_value_t = 1, value_parser = args::count, allow_negative_numbers = true)]
     levels: usize,
@@ -155,7 +156,7 @@ impl SurfaceArgs {
     }
 
     /// The rules of a scheme on the mesh.
-    pub fn rules(&self, scheme: &SchemeName, mesh: &Mesh) -> Result<eigenring_surface::Rules, Error> {
+    pub fn rules(&self, scheme: &OnMesh, mesh: &Mesh) -> Result<eigenring_surface::Rules, Error> {
         let lambdas = match &self.lambda_map {
             Some(path) => meshes::read_lambdas(path)?,
             None => Vec::new(),
@@ -196,10 +197,10 @@ impl Arguments {
                 "--format text or json",
             ));
         }
-        let name = self.scheme.clone().name()?;
-        let refined = match name {
+        let scheme = self.scheme.scheme()?;
+        let refined = match scheme.name {
             SchemeName::NonUniform(scheme) => self.with_intervals(scheme, format.is_some())?,
-            _ => self.uniform(&name, format.is_some())?,
+            _ => self.uniform(&scheme, format.is_some())?,
         };
         if let (Some(path), Some(format)) = (&self.out, format) {
             let mut bytes = Vec::new();
@@ -251,7 +252,7 @@ impl Arguments {
         Ok(found.mesh)
     }
 
-    fn uniform(&self, scheme: &SchemeName, is_written: bool) -> Result<Mesh, Error> {
+    fn uniform(&self, scheme: &OnMesh, is_written: bool) -> Result<Mesh, Error> {
         self.intervals.refuse()?;
         let mesh = self.surface.mesh(&self.file)?;
         let rules = self.surface.rules(scheme, &mesh)?;

@@ -372,6 +372,18 @@ impl Centre {
         }
     }
 
+    /// The power by which curvature grows along creases that meet here and act in some smoothing steps only.
+    pub fn power_of_creases(&self, context: Context<'_>) -> Result<Option<f64>, Error> {
+        let kernel = context.kernel;
+        let local = &self.stage(usize::MAX).quarters[1].local;
+        let mut least: Option<f64> = None;
+        for &steps in local.mesh.features.edge_steps.values() {
+            let power = kernel.across(kernel.stationary, &vec![(0, steps)])?.power(0.0);
+            least = power.into_iter().chain(least).reduce(f64::min);
+        }
+        Ok(least)
+    }
+
     /// The number of levels that differ.
     pub fn leading(&self) -> usize {
         self.stages.len() - 1

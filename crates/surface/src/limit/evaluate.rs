@@ -4,7 +4,7 @@ pub use super::centre::Undefined;
 use super::centre::{Centre, Context, Stage, missing, quartered};
 use super::ladder::Ladder;
 use super::local::{Local, Source};
-use super::patch::{Jet3, Patch};
+use super::patch::{Jet3, OnCrease, Patch};
 use super::{Place, Surface};
 use crate::Error;
 use nalgebra::{Point3, Vector3};
@@ -153,6 +153,7 @@ impl<'s, 'r> Evaluator<'s, 'r> {
                     ends: surface.ends,
                     soft: surface.soft,
                     net: surface.net.as_ref(),
+                    full: surface.kernel.full_steps(),
                 };
                 let own = |id: u32| surface.rules.vertices().any(|v| v == id).then_some(id);
                 let none = surface.rules.vertices().next().is_none();
@@ -219,7 +220,7 @@ fn half_of(control: &crate::Mesh, half: u32, further: u32) -> u32 {
 
 /// What a part of a level is.
 fn node(surface: &Surface<'_>, local: Local, level: usize) -> Result<Node, Error> {
-    let (rules, kernel) = (surface.rules, &surface.kernel);
+    let (rules, kernel) = (surface.local_rules(), &surface.kernel);
     if !local.is_soft() {
         let irregular = local.irregular(rules, kernel.rings);
         let near = kernel.beyond && local.is_near_special(rules);
@@ -252,7 +253,7 @@ fn node(surface: &Surface<'_>, local: Local, level: usize) -> Result<Node, Error
 
 /// The centre at the first corner of a part, if refinement reproduces the part.
 fn centre(surface: &Surface<'_>, local: &Local, level: usize) -> Result<Option<Arc<Centre>>, Error> {
-    let (rules, kernel) = (surface.rules, &surface.kernel);
+    let (rules, kernel) = (surface.local_rules(), &surface.kernel);
     let level = level.min(kernel.stationary);
     let key = local.key();
     let known = surface.known.lock().ok();
@@ -301,7 +302,7 @@ fn centre(surface: &Surface<'_>, local: &Local, level: usize) -> Result<Option<A
 
 fn descend(surface: &Surface<'_>, at: &mut Node, s: f64, t: f64, scale: f64, level: usize) -> Result<Sample, Error> {
     match at {
-        Node::Regular(patch) => Ok(regular(&patch.jet(s, t), scale)),
+        Node::Regular(patch) => Ok(regular(&patch.jet(s, t), scale, patch.on_crease(s, t))),
         Node::Centre(corner, centre, ladder) => beside(surface.context(), *corner, centre, ladder, s, t, scale),
         Node::Inner(local, refined, children) => {
             let (quarter, s, t) = quartered(s, t);
@@ -324,12 +325,13 @@ fn vector(x: &[f64; 3]) -> Vector3<f64> {
 }
 
 #[inline]
-fn regular(jet: &Jet3, scale: f64) -> Sample {
+fn regular(jet: &Jet3, scale: f64, on_crease: Option<OnCrease>) -> Sample {
     let [position, xs, xt, xss, xst, xtt] = jet;
     let first = [vector(xs), vector(xt)].map(|d| d * scale);
     let second = [vector(xss), vector(xst), vector(xtt)].map(|d| d * (scale * scale));
     let curved = curvature(&first, &second);
-    smooth(Point3::from(*position), first, second, curved)
+    let sample = smooth(Point3::from(*position), first, second, curved);
+    on_crease.map_or(sample, |crease| without_second(sample, crease))
 }
 
 /// A place with derivatives, whose curvature is not defined where they are degenerate.
@@ -353,6 +355,24 @@ fn smooth(
         } else {
             Kind::Undefined(Undefined::Degenerate)
         },
+    }
+}
+
+/// A place on a crease that acts in some smoothing steps only, from second derivatives beside it.
+fn without_second(sample: Sample, crease: OnCrease) -> Sample {
+    let Some(gauss) = sample.gauss.filter(|_| crease.grows) else {
+        return Sample { second: None, ..sample };
+    };
+    Sample {
+        second: None,
+        gauss: None,
+        mean: None,
+        principal: None,
+        kind: Kind::Unbounded {
+            exponent: crease.power,
+            signs: [gauss.signum(); 2],
+        },
+        ..sample
     }
 }
 
@@ -385,7 +405,7 @@ fn beside(
         m += 1;
     }
     let (quarter, s, t) = quartered(s, t);
-    let (jet, finer) = ladder.jet(context, centre, m, quarter, s, t)?;
+    let (jet, finer, on_crease) = ladder.jet(context, centre, m, quarter, s, t)?;
     let curved = scaled_curvature(&jet, ladder, m);
     let shrunk = ladder.lambda.powi(m as i32);
     let real = |x: &[f64; 3]| -> Vector3<f64> {
@@ -402,7 +422,8 @@ fn beside(
         2 => ([-xs, -xt], [xss, xst, xtt]),
         _ => ([xt, -xs], [xtt, -xst, xss]),
     };
-    Ok(smooth(ladder.position + real(&jet[0]), first, second, curved))
+    let sample = smooth(ladder.position + real(&jet[0]), first, second, curved);
+    Ok(on_crease.map_or(sample, |crease| without_second(sample, crease)))
 }
 
 /// The curvature of a jet in the frame of a ladder: of the surface `(x, y, lambda^m z)`, scaled back.
@@ -441,7 +462,27 @@ fn at_centre(context: Context<'_>, centre: &Centre, ladder: &mut Ladder) -> Resu
     })
 }
 
+/// What curvature does around a centre; beside creases that act in some smoothing steps only it is unbounded
+/// whatever the centre is like.
 fn kind_at_centre(context: Context<'_>, centre: &Centre, ladder: &mut Ladder) -> Result<Kind, Error> {
+    let kind = kind_of_centre(context, centre, ladder)?;
+    let Some(power) = centre.power_of_creases(context)? else {
+        return Ok(kind);
+    };
+    Ok(match kind {
+        Kind::Flat => Kind::Unbounded {
+            exponent: power,
+            signs: [0.0; 2],
+        },
+        Kind::Bounded { gauss, .. } => Kind::Unbounded {
+            exponent: power,
+            signs: gauss.map(f64::signum),
+        },
+        kind => kind,
+    })
+}
+
+fn kind_of_centre(context: Context<'_>, centre: &Centre, ladder: &mut Ladder) -> Result<Kind, Error> {
     if let Err(why) = ladder.tangents {
         return Ok(Kind::Undefined(why));
     }
@@ -458,7 +499,7 @@ fn kind_at_centre(context: Context<'_>, centre: &Centre, ladder: &mut Ladder) ->
     for quarter in 1..4 {
         for (i, j) in (0..5).flat_map(|i| (0..5).map(move |j| (i, j))) {
             let (s, t) = (f64::from(i) / 4.0, f64::from(j) / 4.0);
-            let (jet, _) = ladder.jet(context, centre, deep, quarter, s, t)?;
+            let (jet, ..) = ladder.jet(context, centre, deep, quarter, s, t)?;
             if let Some(curved) = scaled_curvature(&jet, ladder, deep) {
                 gauss = [gauss[0].min(curved.gauss), gauss[1].max(curved.gauss)];
                 mean = [mean[0].min(curved.mean), mean[1].max(curved.mean)];

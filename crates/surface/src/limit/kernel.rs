@@ -1,10 +1,12 @@
 //! What the pieces of a surface are, and how far they read.
 
+use super::partial::{Across, Lines};
 use crate::Error;
 use crate::rules::{Method, Rules};
 use eigenring_scheme::families::tension_at;
 use eigenring_spline::curve::{Piece, Tension};
-use std::sync::{Arc, OnceLock};
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, OnceLock};
 
 /// The tensor-product spline of the regular parts of a surface.
 #[derive(Debug)]
@@ -21,6 +23,7 @@ pub(crate) struct Kernel {
     /// The first level from which on all are alike.
     pub stationary: usize,
     pieces: Vec<OnceLock<Arc<Piece>>>,
+    across: Mutex<HashMap<(usize, Lines), Arc<Across>>>,
 }
 
 impl Kernel {
@@ -44,6 +47,7 @@ impl Kernel {
             u0,
             stationary,
             pieces: (0..=stationary).map(|_| OnceLock::new()).collect(),
+            across: Mutex::default(),
         })
     }
 
@@ -60,6 +64,33 @@ impl Kernel {
     /// Whether pieces of a level are cubic B-splines.
     pub fn is_cubic(&self, level: usize) -> bool {
         self.order == 4 && level >= self.stationary
+    }
+
+    /// In how many smoothing steps of a level creases act that act in all; 0 where there are no such steps.
+    pub fn full_steps(&self) -> u32 {
+        if self.dual { 0 } else { self.rings as u32 }
+    }
+
+    /// Whether a crease at a place, in units of an interval from its beginning, is among the control points
+    /// that decide what the functions of the interval are.
+    pub fn is_within(&self, line: i32) -> bool {
+        let rings = self.rings as i32;
+        (1 - rings..=rings).contains(&line)
+    }
+
+    /// The functions across creases that act in some steps, on an interval of a level.
+    pub fn across(&self, level: usize, lines: &Lines) -> Result<Arc<Across>, Error> {
+        let level = level.min(self.stationary);
+        let key = (level, lines.clone());
+        let known = self.across.lock().ok();
+        if let Some(known) = known.and_then(|known| known.get(&key).cloned()) {
+            return Ok(known);
+        }
+        let made = Arc::new(Across::new(self, level, lines)?);
+        if let Ok(mut known) = self.across.lock() {
+            known.insert(key, Arc::clone(&made));
+        }
+        Ok(made)
     }
 
     /// The basis of the pieces of a level.

@@ -1,7 +1,7 @@
 //! The control points of a face beside a centre, split into limit, tangents and rest, level by level.
 
 use super::centre::{Centre, Context, Undefined};
-use super::patch::{Jet3, Patch};
+use super::patch::{Jet3, OnCrease, Patch};
 use crate::Error;
 use crate::refine::Row;
 use nalgebra::{Point3, Vector3};
@@ -158,19 +158,19 @@ impl Ladder {
         quarter: usize,
         s: f64,
         t: f64,
-    ) -> Result<(Jet3, f64), Error> {
+    ) -> Result<(Jet3, f64, Option<OnCrease>), Error> {
         let stage = centre.stage(m);
         let path = stage.locate(context, quarter, s, t)?;
         let key = (m, path.name);
         if let Some(patch) = self.patches.get(&key) {
-            return Ok((patch.jet(path.s, path.t), path.finer));
+            return Ok((patch.jet(path.s, path.t), path.finer, patch.on_crease(path.s, path.t)));
         }
         let points = self.points(centre, m);
         let patch = stage.patch(context, &points, quarter, s, t)?;
-        let jet = patch.jet(path.s, path.t);
+        let (jet, on_crease) = (patch.jet(path.s, path.t), patch.on_crease(path.s, path.t));
         if m <= KEPT {
             self.patches.insert(key, patch);
         }
-        Ok((jet, path.finer))
+        Ok((jet, path.finer, on_crease))
     }
 }

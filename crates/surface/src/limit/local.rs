@@ -20,6 +20,8 @@ pub(crate) struct Key {
     corners: Vec<u32>,
     creases: Vec<([u32; 2], u64)>,
     fixed: Vec<(u32, u64)>,
+    edge_steps: Vec<([u32; 2], u32)>,
+    vertex_steps: Vec<(u32, u32)>,
     definitions: Vec<(u32, u32)>,
 }
 
@@ -45,6 +47,8 @@ pub(crate) struct Source<'a> {
     pub soft: bool,
     /// Of dual schemes the control points.
     pub net: Option<&'a DualNet>,
+    /// In how many smoothing steps what is sharp throughout acts.
+    pub full: u32,
 }
 
 impl Source<'_> {
@@ -58,6 +62,27 @@ impl Source<'_> {
         sharpness.min(INFINITE)
     }
 
+    /// In how many smoothing steps an edge is a crease, if it is one in some of them only.
+    pub fn steps(&self, half: u32) -> Option<u32> {
+        let [a, b] = self.topology.ends(half);
+        let features = &self.mesh.features;
+        let steps = *features.edge_steps.get(&edge(a, b))?;
+        let soft = steps < self.full && features.creases.contains_key(&edge(a, b));
+        (soft && self.topology.twin(half).is_some()).then_some(steps)
+    }
+
+    /// Likewise a vertex that is marked itself.
+    pub fn own_steps(&self, vertex: u32) -> Option<u32> {
+        let steps = *self.mesh.features.vertex_steps.get(&vertex)?;
+        (steps < self.full && self.own(vertex) > 0.0).then_some(steps)
+    }
+
+    /// Whether the surface is two surfaces with a common curve here: at a boundary or crease that acts in all
+    /// steps of all levels.
+    pub fn cuts(&self, half: u32) -> bool {
+        self.sharpness(half) >= INFINITE && self.steps(half).is_none()
+    }
+
     fn spokes(&self, vertex: u32) -> Vec<u32> {
         let fan = self.topology.fan(vertex);
         fan.spokes.iter().copied().chain(fan.last).collect()
@@ -65,7 +90,7 @@ impl Source<'_> {
 
     pub fn sharp_spokes(&self, vertex: u32) -> usize {
         let spokes = self.spokes(vertex).into_iter();
-        spokes.filter(|&spoke| self.sharpness(spoke) >= INFINITE).count()
+        spokes.filter(|&spoke| self.cuts(spoke)).count()
     }
 
     pub fn own(&self, vertex: u32) -> f64 {
@@ -88,7 +113,7 @@ impl Source<'_> {
     /// back.
     fn around(&self, start: u32, cut: bool) -> Vec<u32> {
         let vertex = self.topology.origin(start);
-        let stops = |half: u32| cut && self.sharpness(half) >= INFINITE && self.sharp_spokes(vertex) != 1;
+        let stops = |half: u32| cut && self.cuts(half) && self.sharp_spokes(vertex) != 1;
         let mut found = vec![start];
         let mut spoke = start;
         while !stops(self.topology.previous(spoke)) {
@@ -141,6 +166,9 @@ impl Source<'_> {
             if sharpness > 0.0 {
                 let [a, b] = topology.ends(half).map(|id| numbers[&id]);
                 mesh.features.creases.insert(edge(a, b), sharpness);
+                if let Some(steps) = self.steps(half) {
+                    mesh.features.edge_steps.insert(edge(a, b), steps);
+                }
             }
         }
         for (number, &id) in ids.iter().enumerate() {
@@ -151,6 +179,16 @@ impl Source<'_> {
                 mesh.features
                     .corners
                     .insert(number as u32, if stays { INFINITE } else { own });
+            }
+            // nor are creases there that hold the vertex in some steps from another fan
+            let held = if cut { self.held(id) } else { None };
+            let steps = match self.own_steps(id) {
+                None if own > 0.0 || stays => None,
+                steps => steps.max(held),
+            };
+            if let Some(steps) = steps {
+                mesh.features.corners.entry(number as u32).or_insert(INFINITE);
+                mesh.features.vertex_steps.insert(number as u32, steps);
             }
         }
         let named = ids
@@ -178,6 +216,17 @@ impl Source<'_> {
             net,
             named,
         }
+    }
+
+    /// In how many steps creases that act in some steps hold a vertex on a line of two that always act.
+    fn held(&self, vertex: u32) -> Option<u32> {
+        if self.full == 0 || self.sharp_spokes(vertex) != 2 {
+            return None;
+        }
+        self.spokes(vertex)
+            .into_iter()
+            .filter_map(|spoke| self.steps(spoke))
+            .max()
     }
 
     /// The faces of a part, each by the half-edge from which it is counted.
@@ -227,6 +276,12 @@ impl Local {
             corners: self.mesh.corners().to_vec(),
             creases: features.creases.iter().map(|(&pair, s)| (pair, s.to_bits())).collect(),
             fixed: features.corners.iter().map(|(&v, s)| (v, s.to_bits())).collect(),
+            edge_steps: features
+                .edge_steps
+                .iter()
+                .map(|(&pair, &steps)| (pair, steps))
+                .collect(),
+            vertex_steps: features.vertex_steps.iter().map(|(&v, &steps)| (v, steps)).collect(),
             definitions,
         }
     }
@@ -238,6 +293,8 @@ impl Local {
             ends: Ends::Open,
             soft: self.is_soft(),
             net: self.net.as_ref().map(|(net, _)| net),
+            // a part names no steps but those of what acts in some
+            full: u32::MAX,
         }
     }
 
@@ -283,6 +340,7 @@ impl Local {
             ends: Ends::Open,
             soft: refined.mesh.features.largest_finite_sharpness() > 0.0,
             net: refined.net.as_ref(),
+            full: u32::MAX,
         };
         let start = 4 * face + (4 - corner) % 4;
         // old points keep their numbers
@@ -298,7 +356,7 @@ impl Local {
     fn sector(&self, half: u32) -> (usize, bool) {
         let source = self.source();
         let vertex = self.topology.origin(half);
-        let sharp = |half: u32| source.sharpness(half) >= INFINITE;
+        let sharp = |half: u32| source.cuts(half);
         if source.sharp_spokes(vertex) < 2 {
             let fan = self.topology.fan(vertex);
             return (fan.spokes.len(), fan.is_closed());
@@ -331,6 +389,9 @@ impl Local {
         let regular = |corner: u32| {
             let vertex = self.topology.origin(corner);
             let (faces, closed) = self.sector(corner);
+            if self.has_steps() && (source.own_steps(vertex).is_some() || self.meets_steps(vertex)) {
+                return self.is_straight(corner);
+            }
             match active.masks(vertex, 0) {
                 Masks::One(Kind::Smooth) => {
                     closed && faces == 4 && active.is_plain(vertex) && !self.is_special(rules, vertex, 4)
@@ -377,6 +438,53 @@ impl Local {
 
     /// Whether an edge of the face is a boundary or a crease.
     pub fn is_rim(&self, half: u32) -> bool {
-        self.source().sharpness(half) >= INFINITE
+        self.source().cuts(half)
+    }
+
+    /// In how many smoothing steps an edge of the face is a crease, if in some only.
+    pub fn steps(&self, half: u32) -> Option<u32> {
+        self.source().steps(half)
+    }
+
+    /// Whether a crease or a vertex acts in some smoothing steps only.
+    pub fn has_steps(&self) -> bool {
+        let features = &self.mesh.features;
+        !features.edge_steps.is_empty() || !features.vertex_steps.is_empty()
+    }
+
+    fn meets_steps(&self, vertex: u32) -> bool {
+        let source = self.source();
+        source
+            .spokes(vertex)
+            .into_iter()
+            .any(|spoke| source.steps(spoke).is_some())
+    }
+
+    /// Whether the surface around a vertex, seen from a face, is a tensor product of functions that know the
+    /// creases through it which act in some steps only: these run straight on.
+    fn is_straight(&self, corner: u32) -> bool {
+        let source = self.source();
+        let vertex = self.topology.origin(corner);
+        let (faces, closed) = self.sector(corner);
+        let own = source.own_steps(vertex).unwrap_or(0);
+        let fan = self.topology.fan(vertex);
+        let steps = |half: u32| source.steps(half).unwrap_or(0);
+        let cuts = source.sharp_spokes(vertex);
+        if closed && cuts == 0 && faces == 4 {
+            let steps: Vec<u32> = fan.spokes.iter().map(|&spoke| steps(spoke)).collect();
+            return steps[0] == steps[2] && steps[1] == steps[3] && own <= steps[0].min(steps[1]);
+        }
+        // one side of a line: the spoke in its middle
+        let middle = if source.cuts(corner) {
+            self.topology.previous(corner)
+        } else {
+            corner
+        };
+        let fixed = source.own(vertex) >= INFINITE && source.own_steps(vertex).is_none();
+        match faces {
+            1 => cuts >= 2 && (fixed || cuts > 2),
+            2 => cuts == 2 && !fixed && own <= steps(middle),
+            _ => false,
+        }
     }
 }

@@ -16,6 +16,7 @@ mod kernel;
 mod ladder;
 mod local;
 mod net;
+mod partial;
 mod patch;
 mod vertices;
 
@@ -58,6 +59,8 @@ pub struct Place {
 #[derive(Debug)]
 pub struct Surface<'a> {
     rules: &'a Rules,
+    /// The same rules for parts of the mesh, on which creases name their steps themselves.
+    named_steps: Option<Rules>,
     kernel: Kernel,
     ends: Ends,
     control: Mesh,
@@ -86,8 +89,8 @@ impl<'a> Surface<'a> {
     ///
     /// # Errors
     /// [`Error::Defects`] for what is no surface; [`Error::NoRule`] for schemes whose regular surfaces are
-    /// neither bicubic in one pass nor those of the tension scheme, and for creases that act in some of the
-    /// smoothing steps only.
+    /// neither bicubic in one pass nor those of the tension scheme; [`Error::Range`] for creases that act in
+    /// more smoothing steps than there are.
     pub fn new(mesh: &Mesh, rules: &'a Rules) -> Result<Self, Error> {
         if mesh.face_count() == 0 {
             return Err(Error::Empty);
@@ -103,9 +106,19 @@ impl<'a> Surface<'a> {
                 accepted: "are boundary edge and corner".to_owned(),
             });
         }
-        full_steps(mesh, rules, &kernel)?;
+        let full = kernel.full_steps();
+        let is_partial =
+            rules.steps.is_some() || !(mesh.features.edge_steps.is_empty() && mesh.features.vertex_steps.is_empty());
+        let own;
+        let mesh = if full > 0 && is_partial {
+            own = with_steps(mesh, &topology, rules, full)?;
+            &own
+        } else {
+            mesh
+        };
         let mut surface = Surface {
             rules,
+            named_steps: rules.steps.map(|_| rules.with_all_steps()),
             kernel,
             ends,
             control: mesh.clone(),
@@ -139,9 +152,13 @@ impl<'a> Surface<'a> {
 
     fn context(&self) -> Context<'_> {
         Context {
-            rules: self.rules,
+            rules: self.local_rules(),
             kernel: &self.kernel,
         }
+    }
+
+    fn local_rules(&self) -> &Rules {
+        self.named_steps.as_ref().unwrap_or(self.rules)
     }
 
     /// The control mesh.
@@ -262,33 +279,27 @@ impl<'a> Surface<'a> {
     }
 }
 
-/// A crease or corner that acts in some steps only is no line of reflection.
-fn full_steps(mesh: &Mesh, rules: &Rules, kernel: &Kernel) -> Result<(), Error> {
-    if kernel.dual {
-        return Ok(());
-    }
-    let full = (kernel.order / 2 - 1) as u32;
+/// The mesh with the steps of all creases and corners written down. What acts in no step is none.
+fn with_steps(mesh: &Mesh, topology: &Topology, rules: &Rules, full: u32) -> Result<Mesh, Error> {
+    let mut mesh = mesh.clone();
     let default = rules.steps.map_or(full, |steps| steps as u32);
-    let features = &mesh.features;
-    let steps = |own: Option<&u32>| own.copied().unwrap_or(default);
-    let edges = features.creases.iter().filter(|(_, s)| **s > 0.0);
-    let edges = edges.filter(|(pair, _)| steps(features.edge_steps.get(*pair)) < full);
-    let edges = edges.map(|(&[a, b], _)| format!("edge {a} {b}"));
-    let vertices = features.corners.iter().filter(|(_, s)| **s > 0.0);
-    let vertices = vertices.filter(|(vertex, _)| steps(features.vertex_steps.get(*vertex)) < full);
-    let found: Vec<String> = edges
-        .chain(vertices.map(|(vertex, _)| format!("vertex {vertex}")))
-        .take(10)
-        .collect();
-    if found.is_empty() {
-        return Ok(());
-    }
-    Err(Error::NoRule {
-        what: "limits beside creases and corners that act in some smoothing steps only".to_owned(),
-        elements: found.join(", "),
-        accepted: format!(
-            "are cs = {full} of order {}, in which they act in all steps",
-            kernel.order
-        ),
-    })
+    mesh.features.check_steps(rules.steps, full)?;
+    let features = &mut mesh.features;
+    let mut edge_steps = std::mem::take(&mut features.edge_steps);
+    features
+        .creases
+        .retain(|pair, _| *edge_steps.entry(*pair).or_insert(default) > 0);
+    edge_steps.retain(|pair, _| features.creases.contains_key(pair));
+    let mut vertex_steps = std::mem::take(&mut features.vertex_steps);
+    let on_boundary = |vertex: u32| !topology.fan(vertex).is_closed();
+    features.corners.retain(|&vertex, _| {
+        let steps = vertex_steps.entry(vertex).or_insert(default);
+        if on_boundary(vertex) {
+            *steps = full;
+        }
+        *steps > 0
+    });
+    vertex_steps.retain(|vertex, _| features.corners.contains_key(vertex));
+    (features.edge_steps, features.vertex_steps) = (edge_steps, vertex_steps);
+    Ok(mesh)
 }

@@ -7,8 +7,9 @@
 
 use super::kernel::Kernel;
 use super::local::Local;
+use super::partial::Lines;
 use crate::refine::{Row, add};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 struct Net<'a> {
     local: &'a Local,
@@ -16,16 +17,25 @@ struct Net<'a> {
     known: HashMap<[i32; 2], u32>,
     /// The rims to the left and to the right, below and above.
     ends: [[Option<i32>; 2]; 2],
+    /// Creases that act in some smoothing steps, by their places.
+    lines: [BTreeMap<i32, u32>; 2],
 }
 
-/// The rows of the control points of the face's piece over the points of its part, along s first; `None`
-/// where the part ends before the piece does.
-pub(crate) fn control(local: &Local, kernel: &Kernel) -> Option<Vec<Row>> {
+/// The control points of a piece, as rows over the points of its part, along s first, and the creases across
+/// s and t that act in some smoothing steps only.
+pub(crate) struct Control {
+    pub rows: Vec<Row>,
+    pub lines: [Lines; 2],
+}
+
+/// The control points of the face's piece; `None` where the part ends before the piece does.
+pub(crate) fn control(local: &Local, kernel: &Kernel) -> Option<Control> {
     let rings = kernel.rings as i32;
     let mut net = Net {
         local,
         known: HashMap::new(),
         ends: [[None; 2]; 2],
+        lines: [BTreeMap::new(), BTreeMap::new()],
     };
     net.spread(rings);
     let places: Vec<i32> = if kernel.dual {
@@ -39,7 +49,10 @@ pub(crate) fn control(local: &Local, kernel: &Kernel) -> Option<Vec<Row>> {
             rows.push(net.row([x, y])?);
         }
     }
-    Some(rows)
+    Some(Control {
+        rows,
+        lines: [0, 1].map(|axis| net.mirrored_lines(axis, kernel)),
+    })
 }
 
 impl Net<'_> {
@@ -57,6 +70,10 @@ impl Net<'_> {
             let sides = [([0, -1], 2), ([1, 0], 1), ([0, 1], 0), ([-1, 0], 3)];
             for (side, ([dx, dy], turns)) in sides.into_iter().enumerate() {
                 let half = next(lower, side);
+                if let Some(steps) = self.local.steps(half) {
+                    let (axis, upper) = (usize::from(dx == 0), i32::from(dx + dy > 0));
+                    self.lines[axis].insert([x, y][axis] + upper, steps);
+                }
                 if self.local.is_rim(half) {
                     let (axis, upper) = (usize::from(dx == 0), usize::from(dx + dy > 0));
                     let line = 2 * [x, y][axis] + if upper == 1 { 2 } else { 0 };
@@ -100,6 +117,22 @@ impl Net<'_> {
                 self.known.insert([x + ex, y + ey], rim);
             }
             half = topology.next(half);
+        }
+    }
+
+    /// The creases across an axis, and their images beyond rims.
+    fn mirrored_lines(&self, axis: usize, kernel: &Kernel) -> Lines {
+        let mut lines = self.lines[axis].clone();
+        lines.retain(|&line, _| kernel.is_within(line));
+        loop {
+            let ends = self.ends[axis].into_iter().flatten();
+            let images = ends.flat_map(|end| lines.iter().map(move |(&line, &steps)| (end - line, steps)));
+            let images: Vec<(i32, u32)> = images.filter(|&(line, _)| kernel.is_within(line)).collect();
+            let before = lines.len();
+            lines.extend(images);
+            if lines.len() == before {
+                return lines.into_iter().collect();
+            }
         }
     }
 

@@ -1,11 +1,13 @@
 //! Pieces of regular surfaces: control points, and their values.
 
 use super::kernel::Kernel;
-use super::net::control;
+use super::net::{Control, control};
+use super::partial::Across;
 use crate::Error;
 use crate::limit::centre::missing;
 use crate::limit::local::Local;
 use eigenring_spline::curve::Piece;
+use nalgebra::Vector3;
 use std::sync::Arc;
 
 /// Values and derivatives of the four basis functions of uniform cubic splines at `t`. Written out, since a
@@ -37,12 +39,23 @@ pub(crate) enum Patch {
     Cubic(Box<[[f64; 3]; 16]>),
     /// Of another order or tension.
     Tensor(Arc<Piece>, Vec<[f64; 3]>),
+    /// Beside creases that act in some smoothing steps only: the functions along s and t.
+    Partial([Arc<Across>; 2], Vec<[f64; 3]>),
+}
+
+/// What second derivatives do on a crease that acts in some smoothing steps only.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OnCrease {
+    /// The power of the distance by which they grow beside it.
+    pub power: f64,
+    /// Whether their part along the normal does.
+    pub grows: bool,
 }
 
 impl Patch {
     /// The piece of the face of a part, whose control points are given, as one of the given level.
     pub fn new(local: &Local, points: &[[f64; 3]], kernel: &Kernel, level: usize) -> Result<Self, Error> {
-        let rows = control(local, kernel).ok_or_else(missing)?;
+        let Control { rows, lines } = control(local, kernel).ok_or_else(missing)?;
         let net = rows.iter().map(|row| {
             let mut sum = [0.0; 3];
             for &(at, w) in row {
@@ -50,6 +63,11 @@ impl Patch {
             }
             sum
         });
+        if lines.iter().any(|lines| !lines.is_empty()) {
+            let [in_s, in_t] = &lines;
+            let axes = [kernel.across(level, in_s)?, kernel.across(level, in_t)?];
+            return Ok(Patch::Partial(axes, net.collect()));
+        }
         if kernel.is_cubic(level) {
             let mut control = Box::new([[0.0; 3]; 16]);
             control.iter_mut().zip(net).for_each(|(at, point)| *at = point);
@@ -67,8 +85,49 @@ impl Patch {
                 let (in_s, in_t) = (piece.at(s), piece.at(t));
                 tensor(piece.order(), control, &in_s, &in_t)
             }
+            Patch::Partial([along_s, along_t], control) => {
+                tensor(control.len().isqrt(), control, &along_s.at(s), &along_t.at(t))
+            }
         }
     }
+
+    /// On a crease that acts in some steps only, what second derivatives do; those of the jet are taken
+    /// beside it.
+    #[inline]
+    pub fn on_crease(&self, s: f64, t: f64) -> Option<OnCrease> {
+        match self {
+            Patch::Partial(axes, control) => on_crease(axes, control, s, t),
+            _ => None,
+        }
+    }
+}
+
+/// Normal parts of second derivatives below this part of their terms are rounding.
+const ROUNDING: f64 = 1e-11;
+
+fn on_crease(axes: &[Arc<Across>; 2], control: &[[f64; 3]], s: f64, t: f64) -> Option<OnCrease> {
+    let powers = [axes[0].power(s), axes[1].power(t)];
+    let power = powers.into_iter().flatten().reduce(f64::min)?;
+    let order = control.len().isqrt();
+    let (in_s, in_t) = (axes[0].at(s), axes[1].at(t));
+    let [xs, xt] = [1, 2].map(|i| Vector3::from(tensor(order, control, &in_s, &in_t)[i]));
+    let normal = xs.cross(&xt);
+    let mut grows = false;
+    for (axis, _) in powers.iter().enumerate().filter(|(_, power)| power.is_some()) {
+        let (by_s, by_t) = if axis == 0 { (2, 0) } else { (0, 2) };
+        let (mut sum, mut size) = (0.0, 0.0);
+        for (row, j) in control.chunks_exact(order).zip(0..) {
+            for (point, i) in row.iter().zip(0..) {
+                // constants have no derivatives: of differences, so that a far origin costs no digits
+                let away = Vector3::from(*point) - Vector3::from(control[0]);
+                let weight = in_s[by_s][i] * in_t[by_t][j];
+                sum += weight * away.dot(&normal);
+                size += weight.abs() * away.norm() * normal.norm();
+            }
+        }
+        grows |= sum.abs() > ROUNDING * size;
+    }
+    Some(OnCrease { power, grows })
 }
 
 /// The jet of a bicubic piece whose control points run along s first.

@@ -58,6 +58,7 @@ impl Surface<'_> {
             ends: self.ends,
             soft: false,
             net: None,
+            full: self.kernel.full_steps(),
         };
         let mut found = Vec::new();
         for vertex in 0..topology.vertex_count() as u32 {
@@ -73,10 +74,10 @@ impl Surface<'_> {
         if n == 0 {
             return Ok(Vec::new());
         }
-        let sharp: Vec<usize> = (0..n)
-            .filter(|&i| source.sharpness(fan.spokes[i]) >= INFINITE)
-            .collect();
-        let count = source.sharp_spokes(vertex);
+        let sharp: Vec<usize> = (0..n).filter(|&i| source.cuts(fan.spokes[i])).collect();
+        // what acts in the first smoothing step
+        let spokes = fan.spokes.iter().copied().chain(fan.last);
+        let count = spokes.filter(|&spoke| source.sharpness(spoke) >= INFINITE).count();
         let rule = match count {
             _ if source.own(vertex) >= INFINITE => Rule::Corner,
             0 => Rule::Smooth,
