@@ -54,7 +54,7 @@ pub(crate) enum Half {
 pub(crate) struct AtLine {
     limit: Vec<f64>,
     slope: Vec<f64>,
-    /// The functionals of the levels, and the matrices that lead to the next one; all later ones are the last.
+    /// Levels that differ, with the matrices that lead to the next one, and the one that all later ones equal.
     stages: Vec<Stage>,
     rests: Vec<Square>,
     /// The power of the distance by which second derivatives grow.
