@@ -54,7 +54,7 @@ pub(crate) enum Half {
 pub(crate) struct AtLine {
     limit: Vec<f64>,
     slope: Vec<f64>,
-    /// Levels that differ, with the matrices that lead to the next one, and the one that all later ones equal.
+    /// Levels that differ, with matrices to the next one, and the one that all later ones equal.
     stages: Vec<Stage>,
     rests: Vec<Square>,
     /// The power of the distance by which second derivatives grow.
