@@ -13,6 +13,7 @@ mod refine;
 mod row;
 mod spokes;
 mod star;
+mod surface;
 
 pub use eigen_polyhedron::EigenPolyhedron;
 pub use error::{Error, MAX_SPOKES, Marked};
@@ -25,3 +26,4 @@ pub use primal::{Step, eigen_polyhedron_step, nurss_step};
 pub use refine::{NAMES, Refined, Refinement, Scheme, refined};
 pub use spokes::Spokes;
 pub use star::Star;
+pub use surface::{Sample, Surface};

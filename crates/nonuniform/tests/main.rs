@@ -4,3 +4,4 @@ mod common;
 mod local;
 mod meshes;
 mod reference;
+mod surface;

@@ -85,7 +85,7 @@ fn regular_grids_are_refined_as_by_knot_insertion() {
     }
 }
 
-fn mesh_of(net: &Net) -> Mesh {
+pub fn mesh_of(net: &Net) -> Mesh {
     let points = net.points.iter().map(|p| Point3::new(p[0], p[1], p[2]));
     let mut mesh = Mesh::new(points.collect(), net.faces.as_ref().unwrap()).unwrap();
     for &(a, b, d) in net.intervals.as_ref().unwrap() {

@@ -72,6 +72,36 @@ pub fn limit<S: Scalar>([far, before, after, beyond]: [f64; 4]) -> [S; 3] {
     [towards.clone() * p, towards * q + back.clone() * r, back * s]
 }
 
+/// The weights of `P_(j-1) .. P_(j+2)` at the parameter u of the span from `t_j = 0` to `t_(j+1) = d_j`, and
+/// those of the derivative, from the intervals `d_(j-2), .., d_(j+2)`, of which `d_j` is positive (Piegl and
+/// Tiller, *The NURBS Book*, 1997, algorithms A2.2 and A2.3).
+pub fn basis<S: Scalar>([before, left, own, right, after]: [f64; 5], u: S) -> [[S; 4]; 2] {
+    let s = S::exact;
+    let ahead = [s(own), s(own) + s(right), s(own) + s(right) + s(after)].map(|t| t - u.clone());
+    let behind = [u.clone(), u.clone() + s(left), u + s(left) + s(before)];
+    let mut weights: [S; 4] = [S::one(), S::zero(), S::zero(), S::zero()];
+    let mut quadratic = weights.clone();
+    for degree in 1..4 {
+        if degree == 3 {
+            quadratic = weights.clone();
+        }
+        let mut saved = S::zero();
+        for r in 0..degree {
+            let (near, far) = (ahead[r].clone(), behind[degree - 1 - r].clone());
+            let part = weights[r].clone() / (near.clone() + far.clone());
+            weights[r] = saved + near * part.clone();
+            saved = far * part;
+        }
+        weights[degree] = saved;
+    }
+    let [a, b, c, _] = quadratic;
+    let three = || S::ratio(3, 1);
+    let a = three() * a / (s(before) + s(left) + s(own));
+    let b = three() * b / (s(left) + s(own) + s(right));
+    let c = three() * c / (s(own) + s(right) + s(after));
+    [weights, [-a.clone(), a - b.clone(), b - c.clone(), c]]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -103,6 +133,13 @@ mod tests {
                 let found = sum(&doubled::<f64>([d[1], d[2], d[3]]), &points[1..]);
                 prop_assert!((found - polar(c, [t[2], t[2], t[3]])).abs() < 1e-12);
             }
+            let (own, u) = (d[2] + 0.1, 0.3 * (d[2] + 0.1));
+            let knots = [-d[0] - d[1], -d[1], 0.0, own, own + d[3], own + d[3] + d[0]];
+            let four = [1, 2, 3, 4].map(|j| polar(c, [knots[j - 1], knots[j], knots[j + 1]]));
+            let [values, slopes] = basis::<f64>([d[0], d[1], own, d[3], d[0]], u);
+            prop_assert!((sum(&values, &four) - polar(c, [u; 3])).abs() < 1e-12);
+            let slope = c[1] + 2.0 * c[2] * u + 3.0 * c[3] * u * u;
+            prop_assert!((sum(&slopes, &four) - slope).abs() < 1e-11);
             if d[1] + d[2] > 0.0 {
                 let found = sum(&vertex::<f64>(d), &points);
                 prop_assert!((found - polar(c, [half(1), t[2], half(2)])).abs() < 1e-12);

@@ -1,0 +1,213 @@
+//! The surface beside an n-gon, after two halvings.
+//!
+//! By then the intervals of the first edges of every spoke are equal, and the points `P_i(j, k)`, j, k = 0 .. 3,
+//! go to those of the next level by a constant matrix, that of [`with_intervals`] on the first four rings. With
+//! the corner's element in units of its sides, (x, y) lies at the first level m with `max(x, y) >= 2^-m` in one
+//! of three patches. All is done with the limit of the n-gon as the origin, which is found anew at every level,
+//! so that distances keep their digits however small they are.
+
+use super::patch::{Jet, evaluate};
+use crate::{Error, HybridNet, NGon};
+use eigenring_scheme::families::with_intervals;
+use eigenring_scheme::{Centre, Corner as Fan, Site, Table};
+use eigenring_spectral::local_matrix;
+
+/// Rings of points whose patches are the three beside the corner.
+const RINGS: usize = 3;
+
+pub(super) struct Corner {
+    n: usize,
+    /// The intervals of the spokes.
+    d: Vec<f64>,
+    table: Table<f64>,
+    limit: Vec<f64>,
+    points: Vec<[f64; 4]>,
+    sites: Vec<Site>,
+}
+
+impl Corner {
+    /// The neighbourhood of an n-gon in a net after two halvings.
+    pub fn new(net: &HybridNet, points: &[[f64; 4]], face: u32) -> Result<Self, Error> {
+        let topology = net.net().topology();
+        let d = net.spokes(face);
+        let n = d.len();
+        let halves: Vec<u32> = topology.face_halves(face).collect();
+        let cut_off = || Error::Range {
+            what: "n-gon",
+            given: face.to_string(),
+            accepted: "one with four edges along each spoke; a zero interval may not lead to the boundary".to_owned(),
+        };
+        let bases: Vec<u32> = halves
+            .iter()
+            .map(|&half| {
+                // from the n-gon into the strip, and into the sector
+                let twin = topology.twin(half)?;
+                Some(topology.next(topology.twin(topology.next(twin))?))
+            })
+            .collect::<Option<_>>()
+            .ok_or_else(cut_off)?;
+        // the interval of the second edge of spoke i, which is another one where the first has no width
+        let second = |base: u32| -> Option<f64> {
+            let right = topology.twin(topology.next(base))?;
+            Some(net.net().interval(topology.next(right)))
+        };
+        let next: Vec<f64> = bases
+            .iter()
+            .map(|&base| second(base))
+            .collect::<Option<_>>()
+            .ok_or_else(cut_off)?;
+        let fan = Fan::closed(Centre::SplitFace, n)?.with_intervals(&d, &next)?;
+        let scheme = with_intervals::<f64>("hnuss", &fan)?;
+        let sites = scheme.numbering(RINGS).sites();
+        let matrix = local_matrix(scheme.limit(), RINGS)?;
+        let mut table = Table::default();
+        for row in 0..matrix.rows() {
+            let entries = matrix.row(row).iter().enumerate();
+            table.push(entries.filter(|(_, w)| **w != 0.0).map(|(i, w)| (i as u32, *w)))?;
+        }
+        let vertex = |site: &Site| {
+            walk(
+                net,
+                bases[site.sector],
+                (site.x as usize - 1) / 2,
+                (site.y as usize - 1) / 2,
+            )
+        };
+        let vertices: Vec<u32> = sites.iter().map(vertex).collect::<Option<_>>().ok_or_else(cut_off)?;
+        Ok(Corner {
+            n,
+            limit: NGon::new(&d)?.limit_weights(),
+            d,
+            table,
+            points: vertices.iter().map(|&vertex| points[vertex as usize]).collect(),
+            sites,
+        })
+    }
+
+    /// The place of `P_i(j, k)`; beyond a spoke it is in the neighbouring sector.
+    fn index(&self, sector: usize, j: i32, k: i32) -> usize {
+        let (sector, j, k) = match (j, k) {
+            (-1, _) => ((sector + 1) % self.n, k, 0),
+            (_, -1) => ((sector + self.n - 1) % self.n, 0, j),
+            _ => (sector, j, k),
+        };
+        let wanted = Site {
+            sector,
+            x: 2 * j + 1,
+            y: 2 * k + 1,
+        };
+        let found = self.sites.iter().position(|site| *site == wanted);
+        found.expect("the first rings hold the nets of the three patches")
+    }
+
+    /// The point at parameters from the corner of a sector, along spoke i and spoke i+1.
+    pub fn at(self, sector: usize, [u, v]: [f64; 2]) -> Jet {
+        let (along, next) = (self.d[sector], self.d[(sector + 1) % self.n]);
+        let (mut points, mut limit) = centred(&self.points, self.corners(), &self.limit);
+        let (mut x, mut y, mut scale) = (u / along, v / next, 1.0);
+        if x == 0.0 && y == 0.0 {
+            return tangents(&self.d, limit, self.corners().map(|i| points[i]));
+        }
+        // intervals are multiples of the sides at the level
+        while x.max(y) < 1.0 {
+            let refined = self
+                .table
+                .apply(&points)
+                .expect("the rows read the rings that are made");
+            let (moved, by) = centred(&refined, self.corners(), &self.limit);
+            (points, limit) = (moved, std::array::from_fn(|k| limit[k] + by[k]));
+            (x, y, scale) = (2.0 * x, 2.0 * y, 0.5 * scale);
+        }
+        let cells = [x, y].map(|x| if x >= 1.0 { 1 } else { 0 });
+        let [a, b] = cells;
+        let net: [[[f64; 4]; 4]; 4] = std::array::from_fn(|k| {
+            std::array::from_fn(|j| points[self.index(sector, a + j as i32 - 1, b + k as i32 - 1)])
+        });
+        let five = |cell: i32, own: f64, beyond: f64| match cell {
+            0 => [beyond, 0.0, own, own, own],
+            _ => [0.0, own, own, own, own],
+        };
+        let turn = |i: usize| self.d[i % self.n];
+        let intervals = [
+            five(a, along, turn(sector + 2)),
+            five(b, next, turn(sector + self.n - 1)),
+        ];
+        let place = [(x - f64::from(a)) * along, (y - f64::from(b)) * next];
+        let mut jet = evaluate(&net, intervals, place);
+        // intervals were those of the first level
+        jet.first = jet.first.map(|slope| slope.map(|x| x / scale));
+        jet.value = std::array::from_fn(|k| jet.value[k] + limit[k]);
+        jet
+    }
+
+    /// The places of the corners of the n-gon.
+    fn corners(&self) -> impl Iterator<Item = usize> + Clone + '_ {
+        (0..self.n).map(|sector| self.index(sector, 0, 0))
+    }
+}
+
+/// Points with the limit of the corners as origin, and that limit.
+fn centred(points: &[[f64; 4]], corners: impl Iterator<Item = usize>, weights: &[f64]) -> (Vec<[f64; 4]>, [f64; 4]) {
+    let mut limit = [0.0; 4];
+    for (corner, weight) in corners.zip(weights) {
+        for (sum, x) in limit.iter_mut().zip(points[corner]) {
+            *sum += weight * x;
+        }
+    }
+    let moved = points.iter().map(|p| std::array::from_fn(|k| p[k] - limit[k]));
+    (moved.collect(), limit)
+}
+
+/// The limit of an n-gon with two tangents.
+fn tangents(d: &[f64], limit: [f64; 4], corners: impl Iterator<Item = [f64; 4]>) -> Jet {
+    let corners: Vec<[f64; 4]> = corners.collect();
+    let weights = NGon::new(d).map(|ngon| ngon.tangent_weights());
+    let combined = |weights: &Vec<f64>| {
+        let size = weights.iter().fold(0.0, |m: f64, w| m.max(w.abs()));
+        let mut sum = [0.0; 4];
+        for (weight, point) in weights.iter().zip(&corners) {
+            for (sum, x) in sum.iter_mut().zip(point) {
+                *sum += weight / size * x;
+            }
+        }
+        sum
+    };
+    Jet {
+        value: limit,
+        first: weights.map_or([[0.0; 4]; 2], |weights| weights.each_ref().map(combined)),
+        is_regular: false,
+    }
+}
+
+/// The limit of an n-gon of any hybrid net.
+pub(super) fn centre(net: &HybridNet, points: &[[f64; 4]], face: u32) -> Result<Jet, Error> {
+    let topology = net.net().topology();
+    let d = net.spokes(face);
+    let weights = NGon::new(&d)?.limit_weights();
+    let corners: Vec<[f64; 4]> = topology
+        .face_halves(face)
+        .map(|half| points[topology.origin(half) as usize])
+        .collect();
+    let (moved, limit) = centred(&corners, 0..corners.len(), &weights);
+    Ok(tangents(&d, limit, moved.into_iter()))
+}
+
+/// The vertex j steps along a sector's first direction and k along its second; `base` leaves its corner.
+fn walk(net: &HybridNet, base: u32, j: usize, k: usize) -> Option<u32> {
+    let topology = net.net().topology();
+    // the lower half-edge of cell (column, row); the last step is along its far edges
+    let (columns, rows) = (j.saturating_sub(1), k.saturating_sub(1));
+    let mut half = base;
+    for _ in 0..columns {
+        half = topology.next(topology.twin(topology.next(half))?);
+    }
+    for _ in 0..rows {
+        half = topology.twin(topology.next(topology.next(half)))?;
+    }
+    Some(match (j, k) {
+        (0, 0) => topology.origin(half),
+        (_, 0) => topology.head(half),
+        (0, _) => topology.origin(topology.previous(half)),
+        _ => topology.head(topology.next(half)),
+    })
+}
