@@ -68,6 +68,7 @@ pub mod index;
 pub mod limits;
 pub mod matrix;
 pub mod meshes;
+pub mod nonuniform;
 pub mod numbers;
 pub mod on_mesh;
 pub mod progress;

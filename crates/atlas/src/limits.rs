@@ -35,7 +35,7 @@ pub fn samples(surface: &Surface<'_>, places: &[Place]) -> Result<Vec<Sample>, E
     Ok(samples.into_iter().flatten().collect())
 }
 
-fn number(x: Option<f64>) -> Cell {
+pub(crate) fn number(x: Option<f64>) -> Cell {
     x.filter(|x| x.is_finite()).map_or(Cell::Empty, Cell::from)
 }
 

@@ -162,6 +162,125 @@ fn what_has_no_rule_is_refused_with_the_element() {
 }
 
 #[test]
+fn limits_are_points_of_the_surface() {
+    use crate::common::csv_rows;
+    let place = place();
+    with(
+        &place,
+        "cube.obj",
+        "knots.obj",
+        "t knot 2/1/0 0 1 2\nt knot 2/1/0 0 3 0.7\n",
+    );
+    place.ok(&["make", "tetrahedron", "-o", "t.obj"]);
+    let number = |row: &std::collections::BTreeMap<String, String>, name: &str| row[name].parse::<f64>().unwrap();
+    for file in ["knots.obj", "t.obj"] {
+        // the same place from two corners; derivatives turn with it
+        let sub = if file == "t.obj" { "1" } else { "0" };
+        place.write(
+            "p.csv",
+            format!("face,sub,s,t,corner\n1,{sub},0.2,0.9,0\n1,{sub},0.3,0.6,0\n1,{sub},0.3000001,0.6,0\n"),
+        );
+        let arguments = [
+            "limit",
+            file,
+            "--scheme",
+            "hnuss",
+            "--points",
+            "p.csv",
+            "--derivatives",
+            "1",
+            "--format",
+            "csv",
+        ];
+        let rows = csv_rows(&place.ok(&arguments));
+        assert_eq!(rows.len(), 3);
+        for axis in ["x", "y", "z"] {
+            let slope = (number(&rows[2], axis) - number(&rows[1], axis)) / 1e-7;
+            assert!(
+                (slope - number(&rows[1], &format!("{axis}s"))).abs() < 1e-5,
+                "{file} {axis}"
+            );
+        }
+        let vertices = csv_rows(&place.ok(&["limit", file, "--scheme", "hnuss", "--vertices", "--format", "csv"]));
+        assert!(
+            vertices
+                .iter()
+                .all(|row| row["rule"] == "extraordinary" && !row["x"].is_empty())
+        );
+    }
+    place.write(
+        "p.csv",
+        "face,sub,s,t,corner\n0,0,0.2,0.9,0\n0,0,0.9,0.8,1\n0,0,0.8,0.1,2\n0,0,0.1,0.2,3\n",
+    );
+    let arguments = [
+        "limit",
+        "knots.obj",
+        "--scheme",
+        "hnuss",
+        "--points",
+        "p.csv",
+        "--derivatives",
+        "1",
+        "--format",
+        "csv",
+    ];
+    let rows = csv_rows(&place.ok(&arguments));
+    for (row, [s, t]) in rows.iter().zip([
+        [("xs", 1.0), ("xt", 1.0)],
+        [("xt", -1.0), ("xs", 1.0)],
+        [("xs", -1.0), ("xt", -1.0)],
+        [("xt", 1.0), ("xs", -1.0)],
+    ]) {
+        assert!((number(row, "x") - number(&rows[0], "x")).abs() < 1e-13);
+        assert!(
+            (number(row, s.0) * s.1 - number(&rows[0], "xs")).abs() < 1e-12,
+            "{row:?}"
+        );
+        assert!(
+            (number(row, t.0) * t.1 - number(&rows[0], "xt")).abs() < 1e-12,
+            "{row:?}"
+        );
+    }
+    // NURSS is evaluated nowhere, and faces that are none are named
+    let run = place.run(&["limit", "cube.obj", "--scheme", "nurss", "--vertices"]);
+    assert_eq!(run.code, Some(2));
+    place.write("p.csv", "9,0,0.2,0.9\n");
+    let run = place.run(&["limit", "cube.obj", "--scheme", "hnuss", "--points", "p.csv"]);
+    assert!(run.code == Some(2) && run.stderr.contains("0 to 5"), "{}", run.stderr);
+}
+
+#[test]
+fn the_lemmas_on_hnuss_are_checked_exactly() {
+    let place = Place::new();
+    let proven = place.json("verify --scheme hnuss --knots 1,1e6,2,1,7,0.3,1e-3");
+    assert_eq!((&proven["status"], &proven["holds"]), (&"proven".into(), &true.into()));
+    let check = |report: &serde_json::Value, name: &str| {
+        let checks = report["checks"].as_array().unwrap().clone();
+        checks.into_iter().find(|check| check["name"] == name).unwrap()
+    };
+    let margin = check(&proven, "subdominant")["margin"].as_f64().unwrap();
+    assert!(margin > 0.0 && margin < 1e-3, "{margin}");
+    // the matrix and the surface are judged apart
+    let bounded = place.json("verify --scheme hnuss --knots 4,4,1,1,4,4,1,1");
+    assert_eq!(check(&bounded, "bounded_curvature_matrix")["status"], "undecided");
+    assert_eq!(check(&bounded, "bounded_curvature")["status"], "numerical");
+    // what is not proven is not said to be
+    for line in [
+        "verify --scheme hnuss --knots 0,1,1,2,1",
+        "verify --scheme nurss --knots 1,2,1.5,.8,1.2",
+        "verify --scheme eigen-polyhedron --knots 1,2,1.5,.8,1.2",
+        "verify --scheme hnuss:simple --knots 4,4,1,1,4,4,1,1 --require bounded",
+    ] {
+        let run = place.run(&line.split(' ').collect::<Vec<_>>());
+        assert!(
+            run.code == Some(1) && run.stdout.contains("is undecided"),
+            "{line}: {}",
+            run.stdout
+        );
+    }
+}
+
+#[test]
 fn spectra_have_the_numbers_of_the_papers() {
     let place = Place::new();
     let leading = |scheme: &str, knots: &str| {

@@ -12,10 +12,16 @@ fn meshes(c: &mut Criterion) {
     let net = Net::new(&mesh).expect("quads with equal intervals");
     let hybrid = eigenring_nonuniform::HybridNet::of(&net, FirstLevel::Improved, Outside::Error);
     let hybrid = hybrid.expect("a closed mesh of quads").net;
-    println!("{} quads, {} of the hybrid net", mesh.face_count(), hybrid.net().topology().face_count());
+    println!(
+        "{} quads, {} of the hybrid net",
+        mesh.face_count(),
+        hybrid.net().topology().face_count()
+    );
     let mut group = c.benchmark_group("meshes");
     group.sample_size(10);
-    group.bench_function("a level of Catmull-Clark", |b| b.iter(|| Refiner::new(&rules).refined(&mesh, 1)));
+    group.bench_function("a level of Catmull-Clark", |b| {
+        b.iter(|| Refiner::new(&rules).refined(&mesh, 1))
+    });
     group.bench_function("a halving of HNUSS", |b| b.iter(|| hybrid.halved()));
     let points: Vec<[f64; 3]> = vec![[1.0; 3]; hybrid.net().topology().vertex_count()];
     let (table, _) = hybrid.halved().expect("positive intervals");
@@ -32,8 +38,13 @@ fn spectra(c: &mut Criterion) {
     group.sample_size(10);
     group.bench_function("1800 n-gons, n = 3 to 20", |b| {
         b.iter(|| {
-            let sets = (0..1800).map(|k| (0..3 + k % 18).map(|i| 1.0 + f64::from((i * 7 + k * 13) % 11)).collect());
-            sets.map(|d: Vec<f64>| NGon::new(&d).map(|ngon| ngon.spectrum()[1])).sum::<Result<f64, _>>()
+            let sets = (0..1800).map(|k| {
+                (0..3 + k % 18)
+                    .map(|i| 1.0 + f64::from((i * 7 + k * 13) % 11))
+                    .collect()
+            });
+            sets.map(|d: Vec<f64>| NGon::new(&d).map(|ngon| ngon.spectrum()[1]))
+                .sum::<Result<f64, _>>()
         });
     });
     group.finish();

@@ -5,6 +5,7 @@ mod error;
 pub mod first_level;
 mod hybrid;
 mod intervals;
+pub mod lemmas;
 mod net;
 pub mod ngon;
 pub mod nurss;

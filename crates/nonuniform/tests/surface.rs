@@ -7,6 +7,9 @@ use eigenring_nonuniform::{FirstLevel, NGon, Outside, Refinement, Scheme, Star, 
 use eigenring_spline::intervals::limit;
 use eigenring_surface::{Mesh, Point3, Topology, Vector3};
 
+/// Derivatives by the parameters of one corner in those of another.
+type Turn = fn(Vector3<f64>, Vector3<f64>) -> [Vector3<f64>; 2];
+
 fn vector(v: [f64; 3]) -> Vector3<f64> {
     Vector3::from(v)
 }
@@ -24,7 +27,7 @@ fn points_and_derivatives_are_those_of_the_prototype() {
         let mut half = *fan.iter().find(|&&spoke| topology.head(spoke) == towards).unwrap();
         let sides = |half: u32| {
             let sides = surface.sides(topology.face(half)).unwrap();
-            if (half - topology.face_halves(topology.face(half)).start) % 2 == 0 {
+            if (half - topology.face_halves(topology.face(half)).start).is_multiple_of(2) {
                 sides
             } else {
                 [sides[1], sides[0]]
@@ -42,7 +45,7 @@ fn points_and_derivatives_are_those_of_the_prototype() {
         let face = topology.face(half);
         let corner = half - topology.face_halves(face).start;
         let [a, b] = sides(half);
-        let (place, turn): ([f64; 2], fn(Vector3<f64>, Vector3<f64>) -> [Vector3<f64>; 2]) = match corner {
+        let (place, turn): ([f64; 2], Turn) = match corner {
             0 => ([u, v], |u, v| [u, v]),
             1 => ([b - v, u], |u, v| [v, -u]),
             2 => ([a - u, b - v], |u, v| [-u, -v]),

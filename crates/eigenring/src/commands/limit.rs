@@ -1,13 +1,16 @@
 //! `eigenring limit`: exact points of a surface.
 
-use super::subdivide::SurfaceArgs;
+use super::subdivide::{IntervalArgs, SurfaceArgs};
 use crate::args::{self, SchemeOnMesh};
 use crate::error::Error;
 use crate::memory;
 use crate::output::Output;
 use clap::{ArgGroup, Args};
 use eigenring_atlas::limits;
+use eigenring_atlas::nonuniform::limits as nonuniform;
+use eigenring_atlas::schemes::SchemeName;
 use eigenring_atlas::table::Format;
+use eigenring_nonuniform::{Scheme as NonUniform, Surface as HnussSurface};
 use eigenring_surface::Surface;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -41,6 +44,8 @@ pub struct Arguments {
     derivatives: String,
     #[command(flatten)]
     surface: SurfaceArgs,
+    #[command(flatten)]
+    intervals: IntervalArgs,
     /// Run although the result may not fit into memory
     #[arg(long)]
     force: bool,
@@ -52,8 +57,13 @@ impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         self.surface.start()?;
         let format = self.output.format()?;
+        let scheme = self.scheme.scheme()?;
+        if let SchemeName::NonUniform(scheme) = scheme.name {
+            return self.with_intervals(scheme, format);
+        }
+        self.intervals.refuse()?;
         let mesh = self.surface.mesh(&self.file)?;
-        let rules = self.surface.rules(&self.scheme.scheme()?, &mesh)?;
+        let rules = self.surface.rules(&scheme, &mesh)?;
         let in_file = |error: eigenring_surface::Error| eigenring_atlas::Error::from(error).in_file(&self.file);
         let surface = Surface::new(&mesh, &rules).map_err(in_file)?;
         if self.vertices {
@@ -79,6 +89,51 @@ impl Arguments {
             format => limits::point_table(&places, &samples, derivatives).render(format),
         };
         self.output.emit(&text)?;
+        Ok(ExitCode::SUCCESS)
+    }
+
+    /// Points of an HNUSS surface.
+    fn with_intervals(&self, scheme: NonUniform, format: Format) -> Result<ExitCode, Error> {
+        let NonUniform::Hnuss(rule) = scheme else {
+            return Err(Error::usage(
+                format!(
+                    "{scheme} is evaluated nowhere: its surface is no union of patches near extraordinary vertices"
+                ),
+                "--scheme hnuss[:simple|printed]; subdivide and spectrum with this one",
+            ));
+        };
+        if self.derivatives == "2" {
+            return Err(Error::usage(
+                "second derivatives of HNUSS are not computed",
+                "--derivatives 0 or 1",
+            ));
+        }
+        self.surface.refuse_for_intervals()?;
+        let mut mesh = self.surface.mesh_with_intervals(&self.file)?;
+        self.intervals.read(&mut mesh)?;
+        // the hybrid net is halved twice
+        memory::check(mesh.corners().len() as f64 * 16.0 * 400.0, self.force, "the surface")?;
+        let in_file = |error: eigenring_nonuniform::Error| eigenring_atlas::Error::from(error).in_file(&self.file);
+        let surface = HnussSurface::new(&mesh, rule, self.intervals.outside()).map_err(in_file)?;
+        self.intervals.tell(&surface.simple);
+        if self.vertices {
+            self.output
+                .emit(&nonuniform::vertex_table(&surface, &mesh)?.render(format))?;
+            return Ok(ExitCode::SUCCESS);
+        }
+        let places = match (&self.points, self.per_face) {
+            (Some(path), _) => limits::read_places(path)?,
+            (None, Some(n)) if n > 0 => {
+                let count = mesh.face_count() as f64 * (n * n) as f64;
+                memory::check(count * 1500.0, self.force, &format!("{count} points"))?;
+                eigenring_surface::limit::grid(&mesh, n)
+            }
+            (None, n) => return Err(Error::range("per-face", n.unwrap_or(0), "1 and above")),
+        };
+        let found = nonuniform::samples(&surface, &mesh, &places)?;
+        let derivatives = self.derivatives.parse().unwrap_or(0);
+        self.output
+            .emit(&nonuniform::point_table(&found, derivatives).render(format))?;
         Ok(ExitCode::SUCCESS)
     }
 }

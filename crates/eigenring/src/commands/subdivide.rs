@@ -85,6 +85,17 @@ impl IntervalArgs {
         }
     }
 
+    /// Says where the simple rule was taken for want of an eigen-polyhedron.
+    pub fn tell(&self, simple: &[u32]) {
+        if !simple.is_empty() {
+            let list: Vec<String> = simple.iter().map(u32::to_string).collect();
+            note(&format!(
+                "the simple rule was taken at vertices {}, which have no eigen-polyhedron",
+                list.join(", ")
+            ));
+        }
+    }
+
     /// Refuses these options for a scheme that takes none of them.
     pub fn refuse(&self) -> Result<(), Error> {
         let given = [("--knots", self.knots.is_some()), ("--outside", self.outside.is_some())];
@@ -242,13 +253,7 @@ impl Arguments {
         self.check(faces, faces, 600.0, is_written)?;
         let found = eigenring_nonuniform::refined(&mesh, scheme, self.levels, self.intervals.outside());
         let found = found.map_err(|error| eigenring_atlas::Error::from(error).in_file(&self.file))?;
-        if !found.simple.is_empty() {
-            let list: Vec<String> = found.simple.iter().map(u32::to_string).collect();
-            note(&format!(
-                "the simple rule was taken at vertices {}, which have no eigen-polyhedron",
-                list.join(", ")
-            ));
-        }
+        self.intervals.tell(&found.simple);
         Ok(found.mesh)
     }
 

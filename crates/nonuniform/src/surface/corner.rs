@@ -1,10 +1,10 @@
 //! The surface beside an n-gon, after two halvings.
 //!
-//! By then the intervals of the first edges of every spoke are equal, and the points `P_i(j, k)`, j, k = 0 .. 3,
-//! go to those of the next level by a constant matrix, that of [`with_intervals`] on the first four rings. With
-//! the corner's element in units of its sides, (x, y) lies at the first level m with `max(x, y) >= 2^-m` in one
-//! of three patches. All is done with the limit of the n-gon as the origin, which is found anew at every level,
-//! so that distances keep their digits however small they are.
+//! By then the intervals of the first edges of every spoke are equal, and the points `P_i(j, k)`, j, k = 0 ..
+//! 3, go to those of the next level by a constant matrix, that of [`with_intervals`] on the first four rings.
+//! With the corner's element in units of its sides, (x, y) lies at the first level m with `max(x, y) >= 2^-m`
+//! in one of three patches. All is done with the limit of the n-gon as the origin, which is found anew at
+//! every level, so that distances keep their digits however small they are.
 
 use super::patch::{Jet, evaluate};
 use crate::{Error, HybridNet, NGon};

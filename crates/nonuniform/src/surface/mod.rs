@@ -98,7 +98,8 @@ impl Surface {
         })
     }
 
-    /// The hybrid net, whose first faces are those of the mesh, or of the mesh of quads that NURSS made of it.
+    /// The hybrid net, whose first faces are those of the mesh, or of the mesh of quads that NURSS made of
+    /// it.
     pub fn net(&self) -> &HybridNet {
         &self.levels[0].net
     }

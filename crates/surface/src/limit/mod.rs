@@ -259,24 +259,29 @@ impl<'a> Surface<'a> {
     /// Places spread over all faces: `n x n` on a quad and on each quarter of another face, at the middles of
     /// equal cells.
     pub fn grid(&self, n: usize) -> Vec<Place> {
-        let mut places = Vec::new();
-        let at = |i: usize| (i as f64 + 0.5) / n as f64;
-        for (face, corners) in self.control.faces().enumerate() {
-            let subs = if corners.len() == 4 { 1 } else { corners.len() };
-            for sub in 0..subs {
-                for (j, i) in (0..n).flat_map(|j| (0..n).map(move |i| (j, i))) {
-                    places.push(Place {
-                        face: face as u32,
-                        sub: sub as u32,
-                        corner: 0,
-                        s: at(i),
-                        t: at(j),
-                    });
-                }
+        grid(&self.control, n)
+    }
+}
+
+/// The middles of n by n cells of each face, and of each quad around a corner of a face that is none.
+pub fn grid(mesh: &Mesh, n: usize) -> Vec<Place> {
+    let mut places = Vec::new();
+    let at = |i: usize| (i as f64 + 0.5) / n as f64;
+    for (face, corners) in mesh.faces().enumerate() {
+        let subs = if corners.len() == 4 { 1 } else { corners.len() };
+        for sub in 0..subs {
+            for (j, i) in (0..n).flat_map(|j| (0..n).map(move |i| (j, i))) {
+                places.push(Place {
+                    face: face as u32,
+                    sub: sub as u32,
+                    corner: 0,
+                    s: at(i),
+                    t: at(j),
+                });
             }
         }
-        places
     }
+    places
 }
 
 /// The mesh with the steps of all creases and corners written down. What acts in no step is none.

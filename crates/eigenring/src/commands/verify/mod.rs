@@ -12,14 +12,16 @@ use crate::threads::Threads;
 use crate::valences::{self, MAX_VALENCE, Valences};
 use clap::{ArgGroup, Args, ValueEnum};
 use eigenring_atlas::certificates::{beside, confirm, curve, ranged};
+use eigenring_atlas::nonuniform::verify as nonuniform;
 use eigenring_atlas::progress::each;
 use eigenring_atlas::schemes::SchemeName;
 use eigenring_atlas::verify;
 use eigenring_certify::parameter::{self, ParameterCertificate};
 use eigenring_certify::range::{Limits, RangeCertificate, prove_range};
 use eigenring_certify::{Requirement, Status, certify};
-use eigenring_scheme::Number;
+use eigenring_nonuniform::{Scheme as NonUniform, Spokes};
 use eigenring_scheme::user::Reading;
+use eigenring_scheme::{Number, Shape};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -181,6 +183,9 @@ impl Arguments {
         let scheme = self.scheme.clone();
         let scheme = scheme.ok_or_else(|| Error::usage("no scheme is given", "--scheme SPEC"))?;
         let scheme = &self.settings.apply(scheme)?;
+        if let SchemeName::NonUniform(scheme) = scheme {
+            return self.with_intervals(*scheme, valences);
+        }
         let corners = match valences {
             Some(valences) => valences
                 .iter()
@@ -236,6 +241,47 @@ impl Arguments {
             note("holds for weights that are results of rounding; of the exact scheme nothing is proven");
         }
         Ok(exit(statuses.iter().all(|&status| status == Status::Proven)))
+    }
+
+    /// What is known of a scheme with knot intervals.
+    fn with_intervals(&self, scheme: NonUniform, valences: Option<&[usize]>) -> Result<ExitCode, Error> {
+        let required = match self.require {
+            Required::C1 => nonuniform::Required::C1,
+            Required::Bounded => nonuniform::Required::Bounded,
+            _ => {
+                return Err(Error::usage(
+                    format!("this is not examined for {scheme}"),
+                    "--require c1 or bounded",
+                ));
+            }
+        };
+        if self.output.is_some() || self.exact {
+            let message = format!("certificates of {scheme} are not stored: they are recomputed in no time");
+            return Err(Error::usage(message, "no -o and no --exact; --format json prints all"));
+        }
+        let name = SchemeName::NonUniform(scheme);
+        let valences = match valences {
+            Some(valences) => valences.iter().copied().map(Some).collect(),
+            None => vec![None],
+        };
+        let mut holds = true;
+        for valence in valences {
+            let spokes = match self.corner.shape(valence, &name)? {
+                (Shape::Knots { intervals, next }, None) => Spokes::new(intervals, next),
+                (Shape::Closed { sectors }, None) => Spokes::stationary(vec![1.0; sectors]),
+                _ => {
+                    return Err(Error::usage(
+                        format!("{scheme} has closed fans only"),
+                        "--knots, or -N alone",
+                    ));
+                }
+            };
+            let spokes = spokes.map_err(eigenring_atlas::Error::from)?;
+            let report = nonuniform::Report::new(scheme, spokes, required)?;
+            files::emit(None, report.render(self.format.format()).as_bytes())?;
+            holds &= report.status() == Status::Proven;
+        }
+        Ok(exit(holds))
     }
 
     fn over_parameter(&self, valences: Option<&[usize]>, range: &(String, [Number; 2])) -> Result<ExitCode, Error> {

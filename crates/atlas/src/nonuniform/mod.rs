@@ -1,0 +1,4 @@
+//! What is printed of schemes with knot intervals.
+
+pub mod limits;
+pub mod verify;
