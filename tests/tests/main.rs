@@ -21,6 +21,7 @@ mod registry;
 mod regular_part;
 mod results_and_paper;
 mod stencil_reference;
+mod surface_results;
 mod tension_reductions;
 mod tension_reference;
 mod tension_results;

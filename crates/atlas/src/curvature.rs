@@ -161,7 +161,6 @@ pub fn centre_table(surface: &Surface<'_>, found: &Curvatures, radii: &[f64]) ->
         columns.extend([format!("gauss_min@{radius:e}"), format!("gauss_max@{radius:e}")]);
     }
     let mut table = Table::new(columns);
-    let control = surface.control();
     for fan in &found.centres {
         let exponent = match fan.sample.kind {
             Kind::Unbounded { exponent, .. } => Cell::from(exponent),
@@ -176,31 +175,67 @@ pub fn centre_table(surface: &Surface<'_>, found: &Curvatures, radii: &[f64]) ->
             exponent,
         ];
         for &radius in radii {
-            let mut range = [f64::INFINITY, f64::NEG_INFINITY];
-            for &face in &fan.faces {
-                let corners = control.face(face as usize);
-                let corner = corners.iter().position(|&v| v == fan.vertex).unwrap_or(0) as u32;
-                let quad = corners.len() == 4;
-                let mut evaluator = surface.evaluator(face)?;
-                // the square of that radius, its two outer sides
-                for k in 0..=8 {
-                    let x = f64::from(k) / 4.0;
-                    let (s, t) = (radius * x.min(1.0), radius * (2.0 - x).min(1.0));
-                    let sample = evaluator.at(Place {
-                        face,
-                        sub: if quad { 0 } else { corner },
-                        corner: if quad { corner } else { 0 },
-                        s,
-                        t,
-                    })?;
-                    if let Some(gauss) = sample.gauss {
-                        range = [range[0].min(gauss), range[1].max(gauss)];
-                    }
-                }
-            }
-            row.extend(range.map(|x| if x.is_finite() { Cell::from(x) } else { Cell::Empty }));
+            let range = gauss_around(surface, fan, radius)?;
+            row.extend(match range {
+                Some(range) => range.map(Cell::from),
+                None => [Cell::Empty, Cell::Empty],
+            });
         }
         table.push(row);
     }
     Ok(table)
+}
+
+/// The surface at a vertex of the control mesh, in its first fan.
+///
+/// # Errors
+/// Those of [`Surface::at`]; a vertex without faces.
+pub fn at_vertex(surface: &Surface<'_>, vertex: u32) -> Result<VertexFan, Error> {
+    let fans = surface.vertices()?;
+    let found = fans.into_iter().find(|fan| fan.vertex == vertex);
+    found.ok_or_else(|| Error::content(format!("vertex {vertex} has no faces")))
+}
+
+/// The least and the largest Gauss curvature on the outer sides of the squares of a side, in parameters,
+/// around a vertex.
+///
+/// # Errors
+/// Those of [`Surface::at`].
+pub fn gauss_around(surface: &Surface<'_>, fan: &VertexFan, radius: f64) -> Result<Option<[f64; 2]>, Error> {
+    let control = surface.control();
+    let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+    for &face in &fan.faces {
+        let corners = control.face(face as usize);
+        let corner = corners.iter().position(|&v| v == fan.vertex).unwrap_or(0) as u32;
+        let quad = corners.len() == 4;
+        let mut evaluator = surface.evaluator(face)?;
+        for k in 0..=8 {
+            let x = f64::from(k) / 4.0;
+            let (s, t) = (radius * x.min(1.0), radius * (2.0 - x).min(1.0));
+            let sample = evaluator.at(Place {
+                face,
+                sub: if quad { 0 } else { corner },
+                corner: if quad { corner } else { 0 },
+                s,
+                t,
+            })?;
+            if let Some(gauss) = sample.gauss {
+                range = [range[0].min(gauss), range[1].max(gauss)];
+            }
+        }
+    }
+    Ok((range[0] <= range[1]).then_some(range))
+}
+
+/// The total Gauss curvature by the midpoint rule, with `n x n` samples on each quad or quarter of a face.
+///
+/// # Errors
+/// Those of [`Surface::at`].
+pub fn sampled_total(surface: &Surface<'_>, n: usize) -> Result<f64, Error> {
+    let mut totals = Totals::default();
+    let cell = 1.0 / (n * n) as f64;
+    for sample in crate::limits::samples(surface, &surface.grid(n))? {
+        add(&mut totals, &sample, cell);
+    }
+    Ok(totals.gauss)
 }

@@ -52,6 +52,9 @@ pub struct IndexEntry {
     pub folder: PathBuf,
     /// What re-checks it when making it anew takes long; `{out}` stands for the folder.
     pub check: Option<String>,
+    /// Whether making it takes so long that checks of everything leave it out unless asked.
+    #[serde(default)]
+    pub slow: bool,
     /// Its files, relative to the folder; none means all that the command writes.
     #[serde(default)]
     pub files: Vec<PathBuf>,
@@ -159,6 +162,7 @@ impl IndexEntry {
             command: command.to_owned(),
             folder: PathBuf::new(),
             check: None,
+            slow: false,
             files: Vec::new(),
             tests: Vec::new(),
             atol: None,

@@ -61,6 +61,7 @@ pub mod eigenvectors;
 mod error;
 pub mod figures;
 pub mod files;
+pub mod gallery;
 pub mod given;
 pub mod glossary;
 pub mod grids;

@@ -65,8 +65,9 @@ impl Raster {
         }
     }
 
-    /// Draws a triangle where nothing nearer is; `shade` gives the colour of a point.
-    pub fn triangle(&mut self, camera: &Camera, corners: [&Corner; 3], shade: &dyn Fn(&Corner) -> [f32; 3]) {
+    /// Draws a triangle where nothing nearer is; `shade` gives the colour of a point, also from how much its
+    /// value changes from one pixel to the next.
+    pub fn triangle(&mut self, camera: &Camera, corners: [&Corner; 3], shade: &dyn Fn(&Corner, f64) -> [f32; 3]) {
         let scale = self.width.min(self.height) as f64 / camera.extent;
         let seen = corners.map(|corner| {
             let d = corner.position - camera.centre;
@@ -82,6 +83,10 @@ impl Raster {
         if !(area.abs() > 1e-12) {
             return;
         }
+        let [va, vb, vc] = corners.map(|corner| corner.value);
+        let slope_x = ((vb - va) * (c[1] - a[1]) - (vc - va) * (b[1] - a[1])) / area;
+        let slope_y = ((vc - va) * (b[0] - a[0]) - (vb - va) * (c[0] - a[0])) / area;
+        let slope = slope_x.abs() + slope_y.abs();
         let range = |k: usize, most: usize| {
             let (low, high) = seen.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
                 (low.min(p[k]), high.max(p[k]))
@@ -120,7 +125,7 @@ impl Raster {
                         mixed(&|corner| corner.parameters[1]),
                     ],
                 };
-                self.colours[at] = shade(&here);
+                self.colours[at] = shade(&here, slope);
             }
         }
     }

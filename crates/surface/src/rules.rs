@@ -5,7 +5,7 @@ use eigenring_scheme::families::{catmull_clark, catmull_clark_weights, smoothing
 use eigenring_scheme::user::UserScheme;
 use eigenring_scheme::{Corner, Definition, Lattice, Level, Scheme, Site, Spec, Stencil};
 use std::collections::{BTreeMap, HashMap};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, OnceLock};
 
 /// The scheme of a mesh: one definition, and others at single vertices. Levels are made once for each
 /// definition and valence.
@@ -17,6 +17,9 @@ pub struct Rules {
     /// In how many smoothing steps creases act that do not say so themselves.
     pub steps: Option<usize>,
     inner: Mutex<Known>,
+    /// Masks of smoothing steps, by whether it is the first one, valence and level.
+    masks: Mutex<HashMap<(bool, usize, usize), [f64; 3]>>,
+    beside: OnceLock<Arc<Scheme<f64>>>,
 }
 
 /// Schemes by definition and valence.
@@ -44,6 +47,8 @@ impl Rules {
             by_valence: BTreeMap::new(),
             steps: None,
             inner: Mutex::default(),
+            masks: Mutex::default(),
+            beside: OnceLock::new(),
         }
     }
 
@@ -63,6 +68,8 @@ impl Rules {
             by_valence: self.by_valence.clone(),
             steps: self.steps,
             inner: Mutex::default(),
+            masks: Mutex::default(),
+            beside: OnceLock::new(),
         }
     }
 
@@ -74,6 +81,8 @@ impl Rules {
             by_valence: self.by_valence.clone(),
             steps: None,
             inner: Mutex::default(),
+            masks: Mutex::default(),
+            beside: OnceLock::new(),
         }
     }
 
@@ -241,12 +250,16 @@ impl Rules {
 
     /// The rules of creases: the scheme on one side of a boundary with two faces.
     pub(crate) fn beside(&self) -> Result<Arc<Scheme<f64>>, Error> {
+        if let Some(known) = self.beside.get() {
+            return Ok(Arc::clone(known));
+        }
         let definition = match self.definition() {
             // the crease rule of cubic splines, as the families have it
             Definition::File(_) => &Definition::Family(Spec::CatmullClark),
             family => family,
         };
-        Ok(Arc::new(definition.around(&Corner::fan(2)?)?))
+        let made = Arc::new(definition.around(&Corner::fan(2)?)?);
+        Ok(Arc::clone(self.beside.get_or_init(|| made)))
     }
 
     /// The smooth mask of a vertex in a smoothing pass: its own weight, that of each edge neighbour, of each
@@ -261,11 +274,16 @@ impl Rules {
     ) -> Result<[f64; 3], Error> {
         let method = self.method()?;
         if let Method::Even { u0, .. } = method {
-            return Ok(smoothing_weights(
-                pass.saturating_sub(1),
-                valence,
-                tension_at(u0, level),
-            ));
+            let step = pass.saturating_sub(1);
+            let key = (step == 0, valence, level);
+            if let Some(mask) = self.masks.lock().ok().and_then(|known| known.get(&key).copied()) {
+                return Ok(mask);
+            }
+            let mask = smoothing_weights(step, valence, tension_at(u0, level));
+            if let Ok(mut known) = self.masks.lock() {
+                known.insert(key, mask);
+            }
+            return Ok(mask);
         }
         let scheme = if plain {
             if valence == 2 && matches!(self.definition(), Definition::Family(Spec::CatmullClark)) {

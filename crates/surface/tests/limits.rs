@@ -329,3 +329,38 @@ fn limits_of_corner_cutting() {
         assert!((beside.position.coords - middle).norm() < 1e-6 && beside.gauss.is_some());
     }
 }
+
+/// Vertices with a lambda of their own, adjacent ones too: limits at all vertices are those of refinement.
+#[test]
+fn single_vertices_have_their_own_lambda() {
+    let control = eigenring_surface::shapes::brick([3, 2, 1]);
+    let own = |lambda: f64| {
+        Definition::Family(Spec::Lambda {
+            lambda,
+            s: None,
+            weights: None,
+        })
+    };
+    let rules = Rules::new(Definition::Family(Spec::CatmullClark));
+    let rules = rules
+        .with_vertex(0, own(0.35))
+        .with_vertex(1, own(0.55))
+        .with_vertex(9, own(0.4));
+    let surface = Surface::new(&control, &rules).unwrap();
+    let refined: Vec<Mesh> = (4..=6)
+        .map(|levels| Refiner::new(&rules).refined(&control, levels).unwrap())
+        .collect();
+    for fan in surface.vertices().unwrap() {
+        let limit = fan.sample.position;
+        let errors: Vec<f64> = refined
+            .iter()
+            .map(|mesh| (mesh.points()[fan.vertex as usize] - limit).norm())
+            .collect();
+        // the error falls by mu, at most .43 here: it would stop at a wrong point
+        assert!(
+            errors[2] < 0.45 * errors[1] && errors[1] < 0.45 * errors[0] || errors[2] < 1e-12,
+            "{}: {errors:?}",
+            fan.vertex
+        );
+    }
+}

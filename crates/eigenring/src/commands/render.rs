@@ -5,7 +5,7 @@ use crate::args::{self, SchemesOnMesh};
 use crate::error::Error;
 use crate::files;
 use clap::{Args, ValueEnum};
-use eigenring_atlas::render::{Settings, Show, render};
+use eigenring_atlas::render::{Settings, Show, Subject, render};
 use eigenring_surface::{Rules, Surface};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -111,6 +111,7 @@ impl Arguments {
             stripes: self.stripes,
             y_up: self.up == "y",
             size: self.size,
+            columns: 8,
         })
     }
 
@@ -129,7 +130,7 @@ impl Arguments {
         let in_file = |error: eigenring_surface::Error| eigenring_atlas::Error::from(error).in_file(&self.file);
         let surfaces = rules.iter().zip(&schemes).map(|(rules, scheme)| {
             let surface = Surface::new(&mesh, rules).map_err(in_file)?;
-            Ok((scheme.called(&rules.definition().name()), surface))
+            Ok((scheme.called(&rules.definition().name()), Subject::Surface(surface)))
         });
         let surfaces: Vec<_> = surfaces.collect::<Result<_, Error>>()?;
         let page = render(&surfaces, &settings)?;

@@ -28,6 +28,9 @@ pub struct Arguments {
     /// Compare instead of writing
     #[arg(long)]
     check: bool,
+    /// Check slow entries too; without, only that their files are there
+    #[arg(long, requires = "check")]
+    slow: bool,
     /// One entry of the index
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
@@ -90,6 +93,12 @@ impl Arguments {
             return Ok(Report {
                 same: holds,
                 text: report,
+            });
+        }
+        if entry.slow && !named && !self.slow {
+            return Ok(Report {
+                same: true,
+                text: format!("slow       {}: left out, see --slow\n", entry.name),
             });
         }
         let folder = tempfile::tempdir().map_err(|source| eigenring_atlas::Error::Write {

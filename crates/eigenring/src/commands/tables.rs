@@ -1,7 +1,7 @@
 //! `eigenring tables`: the main job.
 
 use super::{RESULTS, UNSTORED};
-use crate::args::TuningArgs;
+use crate::args::{self, TuningArgs};
 use crate::checkpoint::Checkpoints;
 use crate::error::Error;
 use crate::files::{self, Written};
@@ -10,6 +10,7 @@ use crate::progress::{Terminal, say};
 use crate::threads::Threads;
 use crate::valences::OptionalValences;
 use clap::{Args, ValueEnum};
+use eigenring_atlas::gallery::Gallery;
 use eigenring_atlas::results::{self, FOLDER, Results, summary};
 use eigenring_atlas::run::{Parameters, check, studies};
 use eigenring_atlas::table::{Format, Table, WIDTH};
@@ -29,6 +30,9 @@ use std::process::ExitCode;
 /// With --scheme tension: OUT/tension/ gets the leading eigenvalues of all local matrices of orders 3 to 22,
 /// five initial tensions and levels 1 to 10, the smallest gaps among them, the exceptions, the paper's Table
 /// 2 and characteristic meshes. Knots, tuning and --embed belong to the lambda-scheme alone.
+///
+/// With --scheme surfaces or tension-surfaces: OUT/surfaces/ or OUT/tension-surfaces/ gets pictures of limit
+/// surfaces like those of the papers, with tables of curvature and of the spectra of features.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  eigenring tables                         all of results/lambda, valences 3 to 20\n  eigenring tables --valences 5,6          two valences, below eigenring-out\n  eigenring tables --starts full --format latex\n  eigenring tables --scheme tension        all of results/tension"
@@ -67,6 +71,10 @@ pub enum Tabulated {
     Lambda,
     /// Fang, Ma and Wang.
     Tension,
+    /// Pictures and curvature of surfaces of the lambda-scheme.
+    Surfaces,
+    /// Pictures of surfaces of the tension scheme, and spectra of its features.
+    TensionSurfaces,
 }
 
 /// See [`Knots`].
@@ -109,6 +117,21 @@ impl Arguments {
         let out = self.out.clone().unwrap_or_else(|| default.into());
         let format = self.format.format();
         let wide = self.wide.of(format)?;
+        let gallery = match self.scheme {
+            Tabulated::Surfaces => Some(Gallery::Lambda),
+            Tabulated::TensionSurfaces => Some(Gallery::Tension),
+            _ => None,
+        };
+        if let Some(gallery) = gallery {
+            if parameters != usual || self.embed.is_some() || self.valences.valences.is_some() {
+                return Err(Error::usage(
+                    "valences, knots, tuning options and --embed belong to tables of coefficients and eigenvalues",
+                    "--out and --threads",
+                ));
+            }
+            self.threads.start()?;
+            return surfaces(gallery, &out);
+        }
         if self.scheme == Tabulated::Tension {
             if parameters != usual || self.embed.is_some() {
                 return Err(Error::usage(
@@ -188,6 +211,18 @@ fn eigenvalue_tables(
     }
     let written = write_all(&folder, all)?;
     finish(&results.smallest_gaps(), &results.in_words(), &written, format, wide)
+}
+
+/// Draws and computes what is shown of surfaces.
+fn surfaces(gallery: Gallery, out: &Path) -> Result<ExitCode, Error> {
+    let folder = out.join(gallery.folder());
+    files::check_writable(out, &folder)?;
+    let mut written = Written::default();
+    for (name, bytes) in gallery.files(&args::tuner())? {
+        written.write(folder.join(name), &bytes)?;
+    }
+    written.say();
+    Ok(ExitCode::SUCCESS)
 }
 
 fn write_all(folder: &Path, files: Vec<(String, String)>) -> Result<Written, Error> {

@@ -298,11 +298,16 @@ impl Stage {
         Ok(path)
     }
 
-    /// That piece, for control points of this level.
+    /// The points after this level.
+    pub fn refined(&self, points: &[[f64; 3]]) -> Result<Vec<[f64; 3]>, Error> {
+        applied(&self.tables, points)
+    }
+
+    /// That piece, for the points after this level.
     pub fn patch(
         &self,
         context: Context<'_>,
-        points: &[[f64; 3]],
+        refined: &[[f64; 3]],
         quarter: usize,
         s: f64,
         t: f64,
@@ -313,8 +318,7 @@ impl Stage {
             name: 0,
             finer: 1.0,
         };
-        let refined = applied(&self.tables, points)?;
-        self.quarters[quarter - 1].patch(context, &refined, &mut path, DEEPEST)
+        self.quarters[quarter - 1].patch(context, refined, &mut path, DEEPEST)
     }
 }
 

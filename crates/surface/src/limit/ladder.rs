@@ -24,6 +24,8 @@ pub(crate) struct Ladder {
     /// T of each level, in the frame.
     rest: Vec<Vec<[f64; 3]>>,
     patches: HashMap<(usize, u64), Patch>,
+    /// The points after the level from which a piece was made last.
+    refined: Option<(usize, Vec<[f64; 3]>)>,
 }
 
 /// Levels beyond this are computed anew from the last one kept.
@@ -78,6 +80,7 @@ impl Ladder {
             ratio,
             rest: Vec::new(),
             patches: HashMap::new(),
+            refined: None,
         };
         ladder.project(centre, 0, &mut first);
         ladder.rest.push(first);
@@ -165,8 +168,12 @@ impl Ladder {
         if let Some(patch) = self.patches.get(&key) {
             return Ok((patch.jet(path.s, path.t), path.finer, patch.on_crease(path.s, path.t)));
         }
-        let points = self.points(centre, m);
-        let patch = stage.patch(context, &points, quarter, s, t)?;
+        let refined = match self.refined.take() {
+            Some((known, refined)) if known == m => refined,
+            _ => stage.refined(&self.points(centre, m))?,
+        };
+        let patch = stage.patch(context, &refined, quarter, s, t)?;
+        self.refined = Some((m, refined));
         let (jet, on_crease) = (patch.jet(path.s, path.t), patch.on_crease(path.s, path.t));
         if m <= KEPT {
             self.patches.insert(key, patch);

@@ -323,7 +323,8 @@ impl Local {
         if self.net.is_some() {
             return dual::step(self, rules, kernel, level);
         }
-        if self.named.is_empty() {
+        // without names no vertex of the part has rules of its own, whatever its number here is
+        if rules.vertices().next().is_none() {
             return step(&self.mesh, &self.topology, rules, level, Ends::Open);
         }
         let rules = rules.renumbered(&self.named);
