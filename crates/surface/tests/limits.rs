@@ -5,10 +5,11 @@
 //! are off by 1e-15 2^d, second ones by 1e-15 4^d, and curvatures by what follows from that.
 
 use crate::common::{json, own, rules, shared};
+use eigenring_scheme::{Definition, Spec};
 use eigenring_surface::io::Format;
 use eigenring_surface::limit::{Kind, Place, Surface};
 use eigenring_surface::shapes::StarKind;
-use eigenring_surface::{Mesh, Vector3};
+use eigenring_surface::{Mesh, Refiner, Rules, Vector3};
 use serde_json::Value;
 use std::path::Path;
 

@@ -191,8 +191,8 @@ fn all_steps_and_none_are_creases_and_none() {
             }
         }
     }
-    let error = Surface::new(&looped, &with_steps(spec, Some(4)))
+    let error = Surface::new(&looped, &with_steps(spec, Some(3)))
         .unwrap_err()
         .to_string();
-    assert!(error.contains("0 to 3"), "{error}");
+    assert!(error.contains("0 to 2"), "{error}");
 }
