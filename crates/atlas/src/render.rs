@@ -34,7 +34,7 @@ pub enum Show {
 #[derive(Debug)]
 pub enum Subject<'a> {
     /// The limit surface.
-    Surface(Surface<'a>),
+    Surface(Box<Surface<'a>>),
     /// The faces of a mesh, flat, with their edges.
     Faces(Mesh),
     /// A mesh fine enough to pass for a smooth surface.

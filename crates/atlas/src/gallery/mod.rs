@@ -85,7 +85,7 @@ fn picture(name: &str, items: &[Item], settings: &Settings, tuner: &Tuner<'_>) -
     let rules: Vec<Rules> = items.iter().map(|item| item.rules(tuner)).collect::<Result<_, _>>()?;
     let surfaces = items.iter().zip(&rules).map(|(item, rules)| {
         let surface = Surface::new(&item.mesh, rules)?;
-        Ok((item.caption.clone(), Subject::Surface(surface)))
+        Ok((item.caption.clone(), Subject::Surface(Box::new(surface))))
     });
     drawn(name, &surfaces.collect::<Result<Vec<_>, Error>>()?, settings)
 }

@@ -130,7 +130,10 @@ impl Arguments {
         let in_file = |error: eigenring_surface::Error| eigenring_atlas::Error::from(error).in_file(&self.file);
         let surfaces = rules.iter().zip(&schemes).map(|(rules, scheme)| {
             let surface = Surface::new(&mesh, rules).map_err(in_file)?;
-            Ok((scheme.called(&rules.definition().name()), Subject::Surface(surface)))
+            Ok((
+                scheme.called(&rules.definition().name()),
+                Subject::Surface(Box::new(surface)),
+            ))
         });
         let surfaces: Vec<_> = surfaces.collect::<Result<_, Error>>()?;
         let page = render(&surfaces, &settings)?;
