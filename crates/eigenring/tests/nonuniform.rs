@@ -281,6 +281,28 @@ fn the_lemmas_on_hnuss_are_checked_exactly() {
 }
 
 #[test]
+fn maxima_of_blending_functions_are_counted() {
+    let place = Place::new();
+    let table = place.json("blending --knots 10,1,1,10,1,1 --next 1,1,1,1,1,1 --schemes nurss,hnuss --levels 4");
+    let text = table.to_string();
+    assert!(text.contains("nurss") && text.contains("hnuss"), "{text}");
+    for bad in [
+        "blending --knots 1,2",
+        "blending --knots 1,2,3 --next 1",
+        "blending --knots 1,1,1 --schemes catmull-clark",
+        "blending --knots 1,1,1 --levels 40",
+    ] {
+        let run = place.run(&bad.split(' ').collect::<Vec<_>>());
+        assert_eq!(
+            (run.code, run.stderr.lines().count()),
+            (Some(2), 1),
+            "{bad}: {}",
+            run.stderr
+        );
+    }
+}
+
+#[test]
 fn spectra_have_the_numbers_of_the_papers() {
     let place = Place::new();
     let leading = |scheme: &str, knots: &str| {

@@ -1,5 +1,6 @@
 //! Subdivision surfaces with knot intervals.
 
+mod blending;
 pub mod eigen_polyhedron;
 mod error;
 pub mod first_level;
@@ -16,6 +17,7 @@ mod spokes;
 mod star;
 mod surface;
 
+pub use blending::{Blending, Peak};
 pub use eigen_polyhedron::EigenPolyhedron;
 pub use error::{Error, MAX_SPOKES, Marked};
 pub use first_level::FirstLevel;

@@ -1,5 +1,6 @@
 //! One binary for all tests.
 
+mod blending;
 mod common;
 mod local;
 mod meshes;

@@ -1,5 +1,6 @@
 //! The subcommands, one module each.
 
+mod blending;
 mod compare;
 mod completions;
 mod curvature;
@@ -61,6 +62,7 @@ enum Command {
     Verify(verify::Arguments),
     Spectrum(spectrum::Arguments),
     Eigenvectors(eigenvectors::Arguments),
+    Blending(blending::Arguments),
     Glossary(glossary::Arguments),
     Matrix(matrix::Arguments),
     Compare(compare::Arguments),
@@ -90,6 +92,7 @@ impl Cli {
             Command::Verify(arguments) => arguments.run(),
             Command::Spectrum(arguments) => arguments.run(),
             Command::Eigenvectors(arguments) => arguments.run(),
+            Command::Blending(arguments) => arguments.run(),
             Command::Glossary(arguments) => arguments.run(),
             Command::Matrix(arguments) => arguments.run(),
             Command::Compare(arguments) => arguments.run(),
