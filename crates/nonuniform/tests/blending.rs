@@ -21,7 +21,8 @@ fn maxima_are_those_of_the_table() {
     };
     // highest value; depth of the other maxima, if there are any; value at the centre
     let none = None;
-    let table: [(Spokes, [(f64, Option<f64>, f64); 5]); 3] = [
+    type Row = (f64, Option<f64>, f64);
+    let table: [(Spokes, [Row; 5]); 3] = [
         (
             red(5, &[0, 1, 3], 10.0),
             [
