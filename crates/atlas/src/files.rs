@@ -18,13 +18,21 @@ pub fn is_replaced(path: &Path) -> bool {
 /// # Errors
 /// [`Error::Write`].
 pub fn write(path: &Path, contents: &[u8]) -> Result<(), Error> {
+    write_by(path, &|file| file.write_all(contents))
+}
+
+/// The same of contents that need not be in memory all at once: `fill` writes them.
+///
+/// # Errors
+/// [`Error::Write`].
+pub fn write_by(path: &Path, fill: &dyn Fn(&mut dyn Write) -> std::io::Result<()>) -> Result<(), Error> {
     let failed = |source| Error::Write {
         path: path.to_owned(),
         source,
     };
     if !is_replaced(path) {
         let mut device = std::fs::File::options().write(true).open(path).map_err(failed)?;
-        return match device.write_all(contents).and_then(|()| device.flush()) {
+        return match fill(&mut device).and_then(|()| device.flush()) {
             // a reader that has gone away is no error
             Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
             result => result.map_err(failed),
@@ -46,7 +54,7 @@ pub fn write(path: &Path, contents: &[u8]) -> Result<(), Error> {
         .suffix(".tmp")
         .tempfile_in(folder)
         .map_err(failed)?;
-    file.write_all(contents).map_err(failed)?;
+    fill(&mut file).map_err(failed)?;
     file.as_file().sync_all().map_err(failed)?;
     // temporary files are private; results are as readable as any other file
     #[cfg(unix)]

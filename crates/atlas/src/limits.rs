@@ -2,8 +2,10 @@
 
 use crate::error::{Accepted, Error};
 use crate::table::{Cell, Format, Table};
+use eigenring_surface::Vector3;
 use eigenring_surface::limit::{Kind, Place, Sample, Surface, VertexFan};
 use rayon::prelude::*;
+use std::fmt::Write;
 use std::path::Path;
 
 /// Samples at places, in their order; faces are evaluated in parallel.
@@ -84,27 +86,66 @@ pub fn point_table(places: &[Place], samples: &[Sample], derivatives: usize) -> 
     table
 }
 
-/// The table of points as CSV, in full precision, for millions of them: rows are printed in parallel.
-pub fn point_csv(places: &[Place], samples: &[Sample], derivatives: usize) -> String {
-    const AT_ONCE: usize = 4096;
-    let parts: Vec<String> = places
-        .par_chunks(AT_ONCE)
-        .zip(samples.par_chunks(AT_ONCE))
-        .enumerate()
-        .map(|(index, (places, samples))| {
-            let text = point_table(places, samples, derivatives).render(Format::Csv);
-            if index == 0 {
-                return text;
+/// A row of the table of points as CSV: what does not exist is empty.
+fn csv_row(text: &mut String, place: &Place, sample: &Sample, derivatives: usize) -> std::fmt::Result {
+    write!(text, "{},{},{},{}", place.face, place.sub, place.s, place.t)?;
+    let vector = |text: &mut String, v: Option<&Vector3<f64>>| -> std::fmt::Result {
+        for k in 0..3 {
+            match v.map(|v| v[k]).filter(|x| x.is_finite()) {
+                Some(x) => write!(text, ",{x}")?,
+                None => text.push(','),
             }
-            // the header is there once
-            text.split_once('\n').map_or(String::new(), |(_, rows)| rows.to_owned())
-        })
-        .collect();
-    if parts.is_empty() {
-        point_table(&[], &[], derivatives).render(Format::Csv)
-    } else {
-        parts.concat()
+        }
+        Ok(())
+    };
+    vector(text, Some(&sample.position.coords))?;
+    if derivatives > 0 {
+        (0..2).try_for_each(|k| vector(text, sample.first.as_ref().map(|first| &first[k])))?;
     }
+    if derivatives > 1 {
+        (0..3).try_for_each(|k| vector(text, sample.second.as_ref().map(|second| &second[k])))?;
+    }
+    vector(text, sample.normal.as_ref())?;
+    let [k1, k2] = [0, 1].map(|k| sample.principal.map(|principal| principal[k]));
+    for x in [sample.gauss, sample.mean, k1, k2] {
+        match x.filter(|x| x.is_finite()) {
+            Some(x) => write!(text, ",{x}")?,
+            None => text.push(','),
+        }
+    }
+    writeln!(text, ",{}", sample.kind.name())
+}
+
+/// Writes the table of points as CSV, in full precision, for millions of them: rows are printed in parallel,
+/// some hundred thousand at a time.
+///
+/// # Errors
+/// Those of writing.
+pub fn write_csv(
+    places: &[Place],
+    samples: &[Sample],
+    derivatives: usize,
+    out: &mut dyn std::io::Write,
+) -> std::io::Result<()> {
+    const AT_ONCE: usize = 4096;
+    out.write_all(point_table(&[], &[], derivatives).render(Format::Csv).as_bytes())?;
+    for (places, samples) in places.chunks(32 * AT_ONCE).zip(samples.chunks(32 * AT_ONCE)) {
+        let parts: Result<Vec<String>, std::fmt::Error> = places
+            .par_chunks(AT_ONCE)
+            .zip(samples.par_chunks(AT_ONCE))
+            .map(|(places, samples)| {
+                let mut text = String::new();
+                for (place, sample) in places.iter().zip(samples) {
+                    csv_row(&mut text, place, sample, derivatives)?;
+                }
+                Ok(text)
+            })
+            .collect();
+        for part in parts.map_err(std::io::Error::other)? {
+            out.write_all(part.as_bytes())?;
+        }
+    }
+    Ok(())
 }
 
 /// The columns of vertices: a row for each fan of faces between sharp edges.

@@ -11,12 +11,24 @@ use std::path::{Path, PathBuf};
 
 /// Writes to standard output, or to a file if one is given. A reader that has gone away is no error.
 pub fn emit(out: Option<&Path>, contents: &[u8]) -> Result<(), Error> {
+    emit_by(out, &|out| out.write_all(contents))
+}
+
+/// The same of contents that need not be in memory all at once: `fill` writes them.
+pub fn emit_by(out: Option<&Path>, fill: &dyn Fn(&mut dyn Write) -> std::io::Result<()>) -> Result<(), Error> {
     if let Some(path) = out {
-        return save(path, contents);
+        if let Some(folder) = path.parent() {
+            announce(folder);
+        }
+        eigenring_atlas::files::write_by(path, fill)?;
+        if eigenring_atlas::files::is_replaced(path) {
+            say(&format!("wrote {}", path.display()));
+        }
+        return Ok(());
     }
     crate::progress::pause(|| {
         let mut stdout = std::io::stdout().lock();
-        match stdout.write_all(contents).and_then(|()| stdout.flush()) {
+        match fill(&mut stdout).and_then(|()| stdout.flush()) {
             Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
             result => result.map_err(Error::Output),
         }

@@ -166,6 +166,11 @@ impl Output {
     pub fn emit(&self, text: &str) -> Result<(), Error> {
         files::emit(self.out.as_deref(), text.as_bytes())
     }
+
+    /// Prints, or writes to the file, what need not be in memory all at once.
+    pub fn emit_by(&self, fill: &dyn Fn(&mut dyn std::io::Write) -> std::io::Result<()>) -> Result<(), Error> {
+        files::emit_by(self.out.as_deref(), fill)
+    }
 }
 
 #[cfg(test)]

@@ -76,19 +76,22 @@ impl Arguments {
             (Some(path), _) => limits::read_places(path)?,
             (None, Some(n)) if n > 0 => {
                 let count = mesh.face_count() as f64 * (n * n) as f64;
-                // a place, its sample and its row as text
-                memory::check(count * 1500.0, self.force, &format!("{count} points"))?;
+                // a place and its sample twice; in other formats than CSV its row as text
+                let text = if format == Format::Csv { 0.0 } else { 1000.0 };
+                memory::check(count * (700.0 + text), self.force, &format!("{count} points"))?;
                 surface.grid(n)
             }
             (None, n) => return Err(Error::range("per-face", n.unwrap_or(0), "1 and above")),
         };
         let samples = limits::samples(&surface, &places)?;
         let derivatives = self.derivatives.parse().unwrap_or(0);
-        let text = match format {
-            Format::Csv => limits::point_csv(&places, &samples, derivatives),
-            format => limits::point_table(&places, &samples, derivatives).render(format),
-        };
-        self.output.emit(&text)?;
+        if format == Format::Csv {
+            let rows = |out: &mut dyn std::io::Write| limits::write_csv(&places, &samples, derivatives, out);
+            self.output.emit_by(&rows)?;
+        } else {
+            let table = limits::point_table(&places, &samples, derivatives);
+            self.output.emit(&table.render(format))?;
+        }
         Ok(ExitCode::SUCCESS)
     }
 
