@@ -188,8 +188,14 @@ fn repairs_make_surfaces() {
     assert!(matches!(mesh.oriented(), Err(Error::NotOrientable { .. })));
 }
 
+/// How many mutilated files are read: `scripts/fuzz-meshes.sh` asks for a million.
+fn cases() -> u32 {
+    let asked = std::env::var("EIGENRING_FUZZ_CASES").ok();
+    asked.and_then(|count| count.parse().ok()).unwrap_or(256)
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(256))]
+    #![proptest_config(ProptestConfig::with_cases(cases()))]
 
     /// Bytes of good files, some changed, cut off or repeated: an answer or an error, and no panic.
     #[test]
