@@ -330,7 +330,11 @@ pub fn confirm(path: &Path, most: usize) -> Result<Confirmation, Error> {
     confirm_text(path, &text, most).map_err(|error| error.in_file(path))
 }
 
-fn confirm_text(path: &Path, text: &str, most: usize) -> Result<Confirmation, Error> {
+/// The same of the text of a certificate; `path` is what it is called.
+///
+/// # Errors
+/// As [`confirm`].
+pub fn confirm_text(path: &Path, text: &str, most: usize) -> Result<Confirmation, Error> {
     // a certificate of a range has tiles, one of a scheme an input, and one of a range of a parameter both
     let value = serde_json::from_str::<serde_json::Value>(text).unwrap_or_default();
     let is_range = value.get("tiles").is_some();

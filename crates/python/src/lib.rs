@@ -1,0 +1,30 @@
+//! The native part of the Python package `eigenring`. It holds no algorithm: what is computed is computed by the
+//! library behind the command, and what is checked here are the types and shapes that come from Python.
+
+mod at;
+mod failure;
+mod maps;
+mod proofs;
+mod scheme;
+mod spectrum;
+mod values;
+mod work;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_class::<scheme::Scheme>()?;
+    module.add_class::<scheme::Corner>()?;
+    module.add_class::<at::At>()?;
+    module.add_class::<spectrum::Spectrum>()?;
+    module.add_class::<spectrum::Eigenvectors>()?;
+    module.add_class::<spectrum::LimitStencils>()?;
+    module.add_class::<spectrum::NaturalConfiguration>()?;
+    module.add_class::<maps::CharacteristicMap>()?;
+    module.add_class::<maps::SecondOrderMaps>()?;
+    module.add_class::<maps::Sample>()?;
+    module.add_class::<proofs::Certificate>()?;
+    Ok(())
+}

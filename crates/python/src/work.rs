@@ -1,0 +1,131 @@
+//! Long work: without the interpreter's lock, on a thread of its own, while the calling thread listens for Ctrl-C and
+//! tells the caller's callback how far the work has come.
+//!
+//! Work ends early at the next step that it reports: the report unwinds through it. What reports nothing for a while
+//! runs on in the background until then, and its result is dropped.
+
+use crate::failure::Failure;
+use eigenring_atlas::progress::{Progress, Task};
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+
+/// How long an interrupt may wait.
+const PAUSE: Duration = Duration::from_millis(50);
+
+/// What is being done: name, steps done, steps in all.
+#[derive(Debug, Default)]
+struct Stage {
+    what: String,
+    done: AtomicUsize,
+    total: usize,
+}
+
+/// How far work has come, and whether it is still wanted.
+#[derive(Clone, Debug, Default)]
+pub struct Reporter {
+    stage: Arc<Mutex<Arc<Stage>>>,
+    cancelled: Arc<AtomicBool>,
+}
+
+/// What unwinds when work is no longer wanted.
+struct Cancelled;
+
+/// A stage of the work that has begun.
+struct Running<'a> {
+    reporter: &'a Reporter,
+    stage: Arc<Stage>,
+}
+
+impl Reporter {
+    fn check(&self) {
+        if self.cancelled.load(Ordering::Relaxed) {
+            // without the message of a panic
+            resume_unwind(Box::new(Cancelled));
+        }
+    }
+
+    /// Work is no longer wanted.
+    pub fn cancel(&self) {
+        self.cancelled.store(true, Ordering::Relaxed);
+    }
+
+    fn now(&self) -> Arc<Stage> {
+        let stage = self.stage.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        Arc::clone(&stage)
+    }
+}
+
+impl Progress for Reporter {
+    fn started<'a>(&'a self, what: &str, total: usize) -> Box<dyn Task + 'a> {
+        self.check();
+        let stage = Arc::new(Stage {
+            what: what.to_owned(),
+            done: AtomicUsize::new(0),
+            total,
+        });
+        *self.stage.lock().unwrap_or_else(|poisoned| poisoned.into_inner()) = Arc::clone(&stage);
+        Box::new(Running { reporter: self, stage })
+    }
+
+    fn note(&self, _: &str) {}
+}
+
+impl Task for Running<'_> {
+    fn advanced(&self) {
+        self.stage.done.fetch_add(1, Ordering::Relaxed);
+        self.reporter.check();
+    }
+}
+
+/// Runs work and returns its result. `callback(what, done, total)` is called on the calling thread.
+///
+/// # Errors
+/// Those of the work; KeyboardInterrupt; whatever the callback raises.
+pub fn run<T, F>(py: Python<'_>, callback: Option<Py<PyAny>>, work: F) -> Result<T, Failure>
+where
+    T: Send + 'static,
+    F: FnOnce(&Reporter) -> Result<T, Failure> + Send + 'static,
+{
+    let reporter = Reporter::default();
+    let (sender, receiver) = channel();
+    let own = reporter.clone();
+    std::thread::spawn(move || {
+        let result = catch_unwind(AssertUnwindSafe(|| work(&own)));
+        // whoever waited may be gone
+        let _ = sender.send(result);
+    });
+    // the lock only makes the receiver fit to be used without the interpreter's own
+    let receiver = Mutex::new(receiver);
+    let mut told = (String::new(), usize::MAX);
+    loop {
+        let received = py.detach(|| {
+            let receiver = receiver.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+            receiver.recv_timeout(PAUSE)
+        });
+        let stage = reporter.now();
+        let at = (stage.what.clone(), stage.done.load(Ordering::Relaxed));
+        let listened = py.check_signals().and_then(|()| {
+            let Some(callback) = callback.as_ref().filter(|_| at != told && !stage.what.is_empty()) else {
+                return Ok(());
+            };
+            callback.call1(py, (at.0.as_str(), at.1, stage.total)).map(|_| ())
+        });
+        told = at;
+        if let Err(error) = listened {
+            reporter.cancel();
+            return Err(error.into());
+        }
+        match received {
+            Ok(Ok(result)) => return result,
+            Ok(Err(_)) | Err(RecvTimeoutError::Disconnected) => {
+                return Err(PyRuntimeError::new_err("the computation stopped: this is a mistake of eigenring").into());
+            }
+            Err(RecvTimeoutError::Timeout) => {}
+        }
+    }
+}
