@@ -3,10 +3,13 @@
 
 mod at;
 mod failure;
+mod figure;
 mod maps;
+mod mesh;
 mod proofs;
 mod scheme;
 mod spectrum;
+mod tuning;
 mod values;
 mod work;
 
@@ -26,5 +29,14 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<maps::SecondOrderMaps>()?;
     module.add_class::<maps::Sample>()?;
     module.add_class::<proofs::Certificate>()?;
+    module.add_class::<mesh::Mesh>()?;
+    module.add_class::<mesh::Limits>()?;
+    module.add_class::<figure::Figure>()?;
+    module.add_class::<figure::Picture>()?;
+    module.add_class::<tuning::Tuned>()?;
+    module.add_function(wrap_pyfunction!(figure::figure, module)?)?;
+    module.add_function(wrap_pyfunction!(tuning::tune, module)?)?;
+    module.add_function(wrap_pyfunction!(tuning::lambda_table, module)?)?;
+    module.add_function(wrap_pyfunction!(tuning::table_columns, module)?)?;
     Ok(())
 }

@@ -76,7 +76,7 @@ impl Scheme {
 #[pymethods]
 impl Scheme {
     #[new]
-    fn new(spec: &Bound<'_, PyAny>) -> Result<Self, Failure> {
+    pub fn new(spec: &Bound<'_, PyAny>) -> Result<Self, Failure> {
         let text: String = match spec.cast::<PyString>() {
             Ok(text) => text.extract()?,
             Err(_) => {

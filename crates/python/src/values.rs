@@ -2,11 +2,12 @@
 //! objects, so that they are what the command prints.
 
 use crate::failure::Failure;
+use eigenring_atlas::table::Table;
 use eigenring_scheme::Complex;
 use eigenring_spectral::Matrix;
 use numpy::{Complex64, PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyInt};
+use pyo3::types::{PyBool, PyDict, PyInt, PyList};
 use serde_json::Value;
 
 /// JSON as dict, list, str, int, float, bool, None.
@@ -84,7 +85,6 @@ pub fn rows(given: &Bound<'_, PyAny>, what: &str, columns: Option<usize>) -> Res
 /// What is no whole number from 0 to 2^32 - 2.
 pub fn indices(given: &Bound<'_, PyAny>, what: &str) -> Result<Vec<u32>, Failure> {
     let refuse = |reason: String| Failure::usage(format!("{what}: {reason}"), "whole numbers from 0 on");
-    let py = given.py();
     if let Ok(array) = given.cast::<PyUntypedArray>() {
         let kind: String = array.dtype().getattr("kind")?.extract()?;
         if kind != "i" && kind != "u" {
@@ -108,7 +108,6 @@ pub fn indices(given: &Bound<'_, PyAny>, what: &str) -> Result<Vec<u32>, Failure
     for item in given.try_iter().map_err(|_| refuse("no list".to_owned()))? {
         found.push(whole(&item?, what)?);
     }
-    let _ = py;
     Ok(found)
 }
 
@@ -127,4 +126,57 @@ pub fn whole(given: &Bound<'_, PyAny>, what: &str) -> Result<u32, Failure> {
     let index = given.call_method0("__index__").map_err(|_| refuse())?;
     let index = index.cast::<PyInt>().map_err(|_| refuse())?.extract::<u32>();
     index.ok().filter(|&index| index < u32::MAX).ok_or_else(refuse)
+}
+
+/// One number or many: a one-dimensional float64 array, a list, or a number.
+///
+/// # Errors
+/// What is none, or holds numbers that are not finite.
+pub fn numbers(given: &Bound<'_, PyAny>, what: &str) -> Result<Vec<f64>, Failure> {
+    let accepted = "finite numbers, as a C-contiguous float64 array of shape (n,) or a list";
+    let refuse = |reason: String| Failure::usage(format!("{what}: {reason}"), accepted);
+    let entries = match given.cast::<PyUntypedArray>() {
+        Ok(array) => {
+            let Ok(array) = array.cast::<PyArray1<f64>>() else {
+                let reason = format!("the type is {}, the shape {:?}", array.dtype(), array.shape());
+                return Err(refuse(reason));
+            };
+            if !array.is_c_contiguous() {
+                return Err(refuse("the array is not contiguous".to_owned()));
+            }
+            array.to_vec().map_err(|error| refuse(error.to_string()))?
+        }
+        Err(_) => match given.extract::<f64>() {
+            Ok(number) => vec![number],
+            Err(_) => given.extract::<Vec<f64>>().map_err(|_| refuse("no numbers".to_owned()))?,
+        },
+    };
+    match entries.iter().position(|x| !x.is_finite()) {
+        Some(place) => Err(refuse(format!("the entry {place} is {}", entries[place]))),
+        None => Ok(entries),
+    }
+}
+
+/// Whole numbers: as many as are given, or one that stands for `count`.
+///
+/// # Errors
+/// As [`indices`].
+pub fn whole_or_many(given: &Bound<'_, PyAny>, what: &str, count: usize) -> Result<Vec<u32>, Failure> {
+    let many = given.cast::<PyUntypedArray>().is_ok_and(|array| array.ndim() > 0) || given.is_instance_of::<PyList>();
+    match many {
+        true => indices(given, what),
+        false => Ok(vec![whole(given, what)?; count]),
+    }
+}
+
+/// A table as a dict of columns, each a list.
+pub fn columns<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyDict>> {
+    let found = PyDict::new(py);
+    let rows = table.json();
+    let rows = rows.as_array().map_or(&[][..], Vec::as_slice);
+    for name in table.columns() {
+        let column = rows.iter().map(|row| row[name].clone()).collect();
+        found.set_item(name, object(py, &Value::Array(column))?)?;
+    }
+    Ok(found)
 }

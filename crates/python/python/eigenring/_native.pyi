@@ -1,5 +1,5 @@
 from os import PathLike
-from typing import Any, Callable, Dict, List, Optional, Sequence, Union
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -154,3 +154,118 @@ class Certificate:
     @staticmethod
     def from_json(text: str, *, require: str = "c1") -> Certificate: ...
     def recheck(self, *, progress: Optional[Progress] = None) -> str: ...
+
+SchemeLike = Union[Scheme, str, PathLike[str]]
+Numbers = Union[float, Floats, Sequence[float]]
+
+class LimitPoints:
+    @property
+    def points(self) -> Floats: ...
+    @property
+    def first(self) -> Floats: ...
+    @property
+    def second(self) -> Floats: ...
+    @property
+    def normals(self) -> Floats: ...
+    @property
+    def gauss(self) -> Floats: ...
+    @property
+    def mean(self) -> Floats: ...
+    @property
+    def principal(self) -> Floats: ...
+    @property
+    def kinds(self) -> List[str]: ...
+
+class Mesh:
+    def __init__(
+        self,
+        vertices: Union[Floats, Sequence[Sequence[float]]],
+        faces: Union[NDArray[np.integer[Any]], Sequence[Sequence[int]]],
+        *,
+        creases: Optional[Mapping[Tuple[int, int], float]] = None,
+        corners: Optional[Mapping[int, float]] = None,
+        boundary: Optional[str] = None,
+    ) -> None: ...
+    @staticmethod
+    def read(path: Union[str, PathLike[str]]) -> Mesh: ...
+    def write(self, path: Union[str, PathLike[str]]) -> None: ...
+    @property
+    def vertices(self) -> Floats: ...
+    @property
+    def faces(self) -> Any: ...
+    def subdivide(self, scheme: SchemeLike, levels: int = 1, *, progress: Optional[Progress] = None) -> Mesh: ...
+    def limit(
+        self,
+        scheme: SchemeLike,
+        face: Union[int, Sequence[int], NDArray[np.integer[Any]]],
+        u: Numbers,
+        v: Numbers,
+        *,
+        sub: Union[int, Sequence[int], NDArray[np.integer[Any]], None] = None,
+        progress: Optional[Progress] = None,
+    ) -> LimitPoints: ...
+    def limit_mesh(self, scheme: SchemeLike, n: int = 8, *, progress: Optional[Progress] = None) -> Mesh: ...
+    def curvature(
+        self,
+        scheme: SchemeLike,
+        *,
+        per_face: int = 8,
+        radii: Sequence[float] = ...,
+        progress: Optional[Progress] = None,
+    ) -> Dict[str, Any]: ...
+    def render(
+        self,
+        scheme: SchemeLike,
+        show: str = "shaded",
+        *,
+        view: Tuple[float, float, float] = (-60.0, 28.0, 1.0),
+        light: Tuple[float, float] = (-25.0, 25.0),
+        stripes: float = 6.0,
+        size: int = 480,
+        up: str = "z",
+        progress: Optional[Progress] = None,
+    ) -> Picture: ...
+
+class Figure:
+    @property
+    def name(self) -> str: ...
+    def svg(self) -> str: ...
+    def png(self, dpi: float = 300.0) -> bytes: ...
+    def data(self) -> Dict[str, Dict[str, List[Any]]]: ...
+    def _repr_svg_(self) -> str: ...
+
+class Picture:
+    def png(self) -> bytes: ...
+    def _repr_png_(self) -> bytes: ...
+
+class Tuned:
+    def json(self) -> Dict[str, Any]: ...
+    @property
+    def text(self) -> str: ...
+    @property
+    def certificates(self) -> List[Certificate]: ...
+
+def figure(
+    name: str,
+    *,
+    schemes: Optional[Sequence[SchemeLike]] = None,
+    valences: Optional[Sequence[int]] = None,
+    lambdas: Optional[Sequence[float]] = None,
+    progress: Optional[Progress] = None,
+) -> List[Figure]: ...
+def tune(
+    scheme: SchemeLike,
+    valence: Union[int, Sequence[int]],
+    minimise: Union[str, Callable[[At], float], None] = None,
+    *,
+    lambda_: Optional[float] = None,
+    subject_to: Sequence[str] = (),
+    fix: Optional[Mapping[str, Union[int, float, str]]] = None,
+    margin: Optional[float] = None,
+    seed: int = 0,
+    descents: int = 6,
+    name: str = "tuned",
+    progress: Optional[Progress] = None,
+) -> Tuned: ...
+def lambda_table(valence: int) -> Dict[str, Any]: ...
+def table_columns(valences: Sequence[int], progress: Optional[Progress] = None) -> Dict[str, Dict[str, List[Any]]]: ...
