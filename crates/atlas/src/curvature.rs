@@ -5,10 +5,13 @@
 //! curvature the integrand grows, and the annuli shrink faster.
 
 use crate::error::Error;
+use crate::meshes::Fields;
 use crate::table::{Cell, Table};
 use eigenring_spline::quadrature::{Node, gauss_legendre};
 use eigenring_surface::limit::{Evaluator, Kind, Place, Sample, Surface, VertexFan};
+use eigenring_surface::{Facts, Mesh, Topology};
 use rayon::prelude::*;
+use serde_json::json;
 
 /// Annuli around an irregular corner.
 const ANNULI: i32 = 40;
@@ -104,6 +107,17 @@ fn over_face(evaluator: &mut Evaluator<'_, '_>, face: u32, size: usize) -> Resul
     Ok(totals)
 }
 
+/// The Euler characteristic of a mesh whose surface is closed and smooth, for [`curvatures`].
+///
+/// # Errors
+/// A mesh that is no surface.
+pub fn euler_of_smooth(mesh: &Mesh) -> Result<Option<i64>, Error> {
+    let topology = Topology::new(mesh).map_err(eigenring_surface::Error::from)?;
+    let facts = Facts::of(mesh, &topology);
+    let smooth = facts.boundary_loops.is_empty() && facts.features.sharp_edges == 0;
+    Ok(smooth.then_some(facts.euler))
+}
+
 /// The curvature of a surface, with `per_face x per_face` samples on each face for the extremes.
 ///
 /// # Errors
@@ -147,6 +161,24 @@ pub fn curvatures(surface: &Surface<'_>, per_face: usize, euler: Option<i64>) ->
         expected: euler.map(|euler| std::f64::consts::TAU * euler as f64),
         centres,
     })
+}
+
+/// Area, integrals and extremes in the fields of `eigenring curvature`.
+pub fn summary(found: &Curvatures) -> Fields {
+    let totals = found.totals;
+    let range = |extremes: &Extremes| {
+        let end = |(value, place): (f64, Place)| json!({ "value": value, "face": place.face, "sub": place.sub, "s": place.s, "t": place.t });
+        json!({ "min": end(extremes.least), "max": end(extremes.greatest) })
+    };
+    Fields(vec![
+        ("area", json!(totals.area)),
+        ("gauss", json!(found.extremes.as_ref().map(|e| range(&e[0])))),
+        ("mean", json!(found.extremes.as_ref().map(|e| range(&e[1])))),
+        ("gauss_average", json!(totals.gauss / totals.area)),
+        ("mean_average", json!(totals.mean / totals.area)),
+        ("total_gauss", json!(totals.gauss)),
+        ("two_pi_chi", json!(found.expected)),
+    ])
 }
 
 /// Centres with the range of the Gauss curvature at distances from them, in parameters.

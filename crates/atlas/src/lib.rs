@@ -41,7 +41,7 @@
 //! | [`run`], [`results`], [`tension`] | the studies behind `results/`, and its files as text |
 //! | [`figures`] | pictures with the tables of what they show |
 //! | [`index`], [`difference`] | what makes and checks `results/`, and comparing its files number by number |
-//! | [`table`], [`progress`], [`files`], [`cache`] | tables in four formats; telling of long work, and the one parallel loop; complete files; remembered stencils |
+//! | [`table`], [`progress`], [`files`], [`cache`], [`memory`] | tables in four formats; telling of long work, and the one parallel loop; complete files; remembered stencils; what fits into memory |
 //!
 //! **Surroundings.** Nothing here knows of command lines, terminals and exit codes. Whoever waits is told of
 //! progress through a [`progress::Progress`]. Work is parallel on the current pool of rayon, and no result
@@ -68,6 +68,7 @@ pub mod grids;
 pub mod index;
 pub mod limits;
 pub mod matrix;
+pub mod memory;
 pub mod meshes;
 pub mod nonuniform;
 pub mod numbers;

@@ -91,8 +91,8 @@ fn no_rings() -> Failure {
 impl At {
     /// The local subdivision matrix as an (n, n) float64 array: new points are ``matrix @ points``.
     ///
-    /// ``rings`` of control points, by default the smallest closed set as ``eigenring matrix`` takes it; ``level`` of
-    /// refinement from 0, by default the limit level.
+    /// ``rings`` of control points, by default the smallest closed set as ``eigenring matrix`` takes it;
+    /// ``level`` of refinement from 0, by default the limit level.
     ///
     /// >>> import eigenring
     /// >>> S = eigenring.Scheme("catmull-clark").at(5).matrix(rings=2)
@@ -126,8 +126,9 @@ impl At {
         Ok(values::object(py, &local.points().json())?)
     }
 
-    /// The Fourier blocks of the matrix, index 0 to N/2, of which N - k is the conjugate of k: real float64 arrays
-    /// where a reflection allows it, else complex ones. One block, the matrix itself, where rules differ from sector to sector.
+    /// The Fourier blocks of the matrix, index 0 to N/2, of which N - k is the conjugate of k: real float64
+    /// arrays where a reflection allows it, else complex ones. One block, the matrix itself, where rules
+    /// differ from sector to sector.
     ///
     /// >>> import eigenring
     /// >>> blocks = eigenring.Scheme("catmull-clark").at(5).blocks(1)
@@ -248,10 +249,11 @@ impl At {
         })
     }
 
-    /// Proves or refutes that the scheme is C1 here (``"c1"``), has bounded curvature (``"bounded"``), is strict
-    /// (``"strict"``) or has no negative weight (``"hull"``), as ``eigenring verify`` does.
+    /// Proves or refutes that the scheme is C1 here (``"c1"``), has bounded curvature (``"bounded"``), is
+    /// strict (``"strict"``) or has no negative weight (``"hull"``), as ``eigenring verify`` does.
     ///
-    /// ``exact`` takes the weights of a file as written; ``progress(what, done, total)`` is called now and then.
+    /// ``exact`` takes the weights of a file as written; ``progress(what, done, total)`` is called now and
+    /// then.
     ///
     /// >>> import eigenring
     /// >>> certificate = eigenring.Scheme("catmull-clark").at(5).verify(require="c1")

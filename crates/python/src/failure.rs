@@ -56,8 +56,8 @@ refused!(
     eigenring_surface::Error
 );
 
-/// The class is written in Python: only there can a class extend `ValueError` in every version of the interpreter
-/// that one wheel serves.
+/// The class is written in Python: only there can a class extend `ValueError` in every version of the
+/// interpreter that one wheel serves.
 fn class(py: Python<'_>) -> PyResult<&Bound<'_, PyType>> {
     static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
     CLASS.import(py, "eigenring._error", "Error")

@@ -1,5 +1,5 @@
-//! The native part of the Python package `eigenring`. It holds no algorithm: what is computed is computed by the
-//! library behind the command, and what is checked here are the types and shapes that come from Python.
+//! The native part of the Python package `eigenring`. It holds no algorithm: what is computed is computed by
+//! the library behind the command, and what is checked here are the types and shapes that come from Python.
 
 mod at;
 mod failure;

@@ -180,9 +180,9 @@ impl SecondOrderMaps {
         PyArray1::from_slice(py, &self.maps.mu)
     }
 
-    /// Heights, gradients, second derivatives and Gauss curvatures as functions of x and y, at n x n parameters of each
-    /// patch: a dict of ``points`` (patches, n, n, 2), ``heights`` and ``gauss`` (3, patches, n, n),
-    /// ``hessians`` (3, patches, n, n, 3) for xx, xy, yy.
+    /// Heights, gradients, second derivatives and Gauss curvatures as functions of x and y, at n x n
+    /// parameters of each patch: a dict of ``points`` (patches, n, n, 2), ``heights`` and ``gauss`` (3,
+    /// patches, n, n), ``hessians`` (3, patches, n, n, 3) for xx, xy, yy.
     ///
     /// >>> import eigenring
     /// >>> sorted(eigenring.Scheme("catmull-clark").at(5).second_order_maps().sample(2))

@@ -146,7 +146,8 @@ impl Certificate {
         })
     }
 
-    /// Checks every claim again by the evidence alone. Returns what is not confirmed, an empty string if all is.
+    /// Checks every claim again by the evidence alone. Returns what is not confirmed, an empty string if all
+    /// is.
     ///
     /// >>> import eigenring
     /// >>> eigenring.Scheme("catmull-clark").at(5).verify().recheck()

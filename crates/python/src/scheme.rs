@@ -102,8 +102,9 @@ impl Scheme {
 
     /// A scheme from the weights of its rule: the tables of a scheme file as a dict.
     ///
-    /// ``rule`` maps the names of weights to numbers or formulas in the valence ``n`` and the parameters; ``valences``
-    /// are those it holds for; ``parameters`` maps each to its default or a dict with ``default``, ``range``, ``doc``.
+    /// ``rule`` maps the names of weights to numbers or formulas in the valence ``n`` and the parameters;
+    /// ``valences`` are those it holds for; ``parameters`` maps each to its default or a dict with
+    /// ``default``, ``range``, ``doc``.
     ///
     /// >>> import eigenring
     /// >>> scheme = eigenring.Scheme.from_stencils(
@@ -209,8 +210,8 @@ impl Scheme {
 
     /// The scheme around a vertex or face of a valence, or another :class:`Corner`.
     ///
-    /// ``knots`` are the intervals of the spokes' first edges and ``next`` those of all further ones (default: the
-    /// same); ``cs`` is the number of smoothing steps on creases.
+    /// ``knots`` are the intervals of the spokes' first edges and ``next`` those of all further ones
+    /// (default: the same); ``cs`` is the number of smoothing steps on creases.
     ///
     /// >>> import eigenring
     /// >>> scheme = eigenring.Scheme("catmull-clark")

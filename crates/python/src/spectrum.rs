@@ -17,8 +17,8 @@ enum Of {
     Matrix(Arc<Given>),
 }
 
-/// The eigenvalues of a local matrix. All arrays have an entry for each eigenvalue, repeated by multiplicity, by
-/// falling modulus.
+/// The eigenvalues of a local matrix. All arrays have an entry for each eigenvalue, repeated by multiplicity,
+/// by falling modulus.
 ///
 /// >>> import eigenring
 /// >>> spectrum = eigenring.Scheme("catmull-clark").at(5).spectrum()
@@ -125,8 +125,8 @@ impl Spectrum {
         self.integers(py, "geometric")
     }
 
-    /// The sizes of each eigenvalue's Jordan blocks, such as ``"2+1"``, in one of two conjugate Fourier blocks; None
-    /// where there are as many eigenvectors as the multiplicity.
+    /// The sizes of each eigenvalue's Jordan blocks, such as ``"2+1"``, in one of two conjugate Fourier
+    /// blocks; None where there are as many eigenvectors as the multiplicity.
     ///
     /// >>> import eigenring
     /// >>> set(eigenring.Scheme("catmull-clark").at(5).spectrum(rings=1).jordan)
@@ -229,8 +229,8 @@ impl Spectrum {
     }
 }
 
-/// Right and left eigenvectors: ``matrix @ right[:, j]`` is ``eigenvalues[j] * right[:, j]``, and
-/// ``left.T @ right`` is the identity. In a chain each further vector is mapped to its multiple plus the one before.
+/// Right and left eigenvectors: ``matrix @ right[:, j]`` is ``eigenvalues[j] * right[:, j]``, and ``left.T @
+/// right`` is the identity. In a chain each further vector is mapped to its multiple plus the one before.
 ///
 /// >>> import eigenring, numpy
 /// >>> v = eigenring.Scheme("catmull-clark").at(5).eigenvectors(rings=1)
@@ -299,7 +299,8 @@ impl Eigenvectors {
         PyArray1::from_slice(py, &self.fourier)
     }
 
-    /// Right eigenvectors as columns: float64 of shape (points, points), complex128 if an eigenvalue is not real.
+    /// Right eigenvectors as columns: float64 of shape (points, points), complex128 if an eigenvalue is not
+    /// real.
     ///
     /// >>> import eigenring
     /// >>> v = eigenring.Scheme("catmull-clark").at(5).eigenvectors(rings=1).right
@@ -340,7 +341,8 @@ impl Eigenvectors {
     }
 }
 
-/// Weights of all points, in the order of :meth:`At.points`: float64 of shape (points,), or None where undefined.
+/// Weights of all points, in the order of :meth:`At.points`: float64 of shape (points,), or None where
+/// undefined.
 ///
 /// >>> import eigenring
 /// >>> stencils = eigenring.Scheme("catmull-clark").at(5).limit_stencils()
@@ -415,7 +417,8 @@ impl LimitStencils {
     }
 }
 
-/// Control points in the plane that refinement maps to lambda times themselves; the first point of ring 1 is (1, 0).
+/// Control points in the plane that refinement maps to lambda times themselves; the first point of ring 1 is
+/// (1, 0).
 ///
 /// >>> import eigenring
 /// >>> at = eigenring.Scheme("catmull-clark").at(5)

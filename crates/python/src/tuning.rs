@@ -10,12 +10,12 @@ use eigenring_atlas::results::tables;
 use eigenring_atlas::run::{Parameters, check, studies};
 use eigenring_atlas::schemes::{SchemeName, setting};
 use eigenring_atlas::tune::{at, over_lambda};
-use eigenring_atlas::tuning::{self, Condition, Goal, Own, Plan};
+use eigenring_atlas::tuning::{Condition, Goal, Own, Plan};
 use eigenring_certify::Requirement;
-use eigenring_scheme::lambda::LambdaTable;
 use eigenring_scheme::Scheme;
-use eigenring_tune::study::{Knots, Range};
-use eigenring_tune::sweep::Options;
+use eigenring_scheme::lambda::LambdaTable;
+use eigenring_tune::study::Knots;
+use eigenring_tune::sweep::{Options, Range};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
 use serde_json::Value;
@@ -46,8 +46,8 @@ impl Tuned {
     /// What ``eigenring tune --format json`` prints.
     ///
     /// >>> import eigenring
-    /// >>> sorted(eigenring.tune("lambda", 5, lambda_=0.5).json())[:3]
-    /// ['E', 'E_lowest', 'active']
+    /// >>> eigenring.tune("lambda", 5, lambda_=0.5).json()["branch"]
+    /// 'continued'
     fn json<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         values::object(py, &self.json)
     }
@@ -70,16 +70,18 @@ impl Tuned {
     #[getter]
     fn certificates(&self) -> Vec<Certificate> {
         let all = self.certificates.iter();
-        all.map(|certificate| Certificate::new(certificate.clone(), Requirement::C1)).collect()
+        all.map(|certificate| Certificate::new(certificate.clone(), Requirement::C1))
+            .collect()
     }
 }
 
 /// Tunes the free parameters of a scheme file at one valence or several, or the lambda-scheme.
 ///
-/// ``minimise`` is one of the command's objectives (``"E"``, ``"E-unweighted"``, ``"ratio"``, ``"lambda:TARGET"``,
-/// ``"K_m"``, ``"strictness"``, ``"hull"``, ``"polar"``, or a sum such as ``"1*E+10*ratio"``), or a function that takes
-/// the scheme :class:`At` the valence and returns a number, NaN where it is not defined. ``subject_to`` lists conditions
-/// out of ``"hull"``, ``"bounded"``, ``"order"``, ``"c1"``; ``fix`` maps parameters to values they keep.
+/// ``minimise`` is one of the command's objectives (``"E"``, ``"E-unweighted"``, ``"ratio"``,
+/// ``"lambda:TARGET"``, ``"K_m"``, ``"strictness"``, ``"hull"``, ``"polar"``, or a sum such as
+/// ``"1*E+10*ratio"``), or a function that takes the scheme :class:`At` the valence and returns a number, NaN
+/// where it is not defined. ``subject_to`` lists conditions out of ``"hull"``, ``"bounded"``, ``"order"``,
+/// ``"c1"``; ``fix`` maps parameters to values they keep.
 ///
 /// With ``scheme="lambda"`` the weights f2, f3 are tuned for one ``lambda_``, or lambda too.
 ///
@@ -112,7 +114,10 @@ pub fn tune(
     name: &str,
     progress: Option<Py<PyAny>>,
 ) -> Result<Tuned, Failure> {
-    let valences: Vec<usize> = values::whole_or_many(valence, "valence", 1)?.into_iter().map(|n| n as usize).collect();
+    let valences: Vec<usize> = values::whole_or_many(valence, "valence", 1)?
+        .into_iter()
+        .map(|n| n as usize)
+        .collect();
     if let Named::Name(text) = &scheme
         && text.cast::<PyString>().is_ok_and(|text| text == "lambda")
     {
@@ -133,13 +138,19 @@ pub fn tune(
     }
     let margin = margin.unwrap_or(Options::default().margin);
     if lambda_.is_some() {
-        return Err(Failure::usage("lambda_ has no meaning for a scheme file", "lambda_ with the scheme \"lambda\""));
+        return Err(Failure::usage(
+            "lambda_ has no meaning for a scheme file",
+            "lambda_ with the scheme \"lambda\"",
+        ));
     }
     if !(0.0..0.5).contains(&margin) {
         return Err(Failure::usage(format!("margin is {margin}"), "0 to below 0.5"));
     }
     if !(1..=MAX_DESCENTS).contains(&descents) {
-        return Err(Failure::usage(format!("descents is {descents}"), format!("1 to {MAX_DESCENTS}")));
+        return Err(Failure::usage(
+            format!("descents is {descents}"),
+            format!("1 to {MAX_DESCENTS}"),
+        ));
     }
     let scheme = scheme.scheme(py)?;
     let SchemeName::File(file) = scheme.get().name()?.clone() else {
@@ -149,14 +160,22 @@ pub fn tune(
         ));
     };
     let Some(minimise) = minimise else {
-        return Err(Failure::usage("no objective is given", "minimise as text or a function"));
+        return Err(Failure::usage(
+            "no objective is given",
+            "minimise as text or a function",
+        ));
     };
     // the first exception of a callback, which is raised when the work has stopped
     let raised: Arc<Mutex<Option<PyErr>>> = Arc::default();
     let own = match minimise.cast::<PyString>() {
         Ok(_) => None,
         Err(_) if minimise.is_callable() => Some(minimise.clone().unbind()),
-        Err(_) => return Err(Failure::usage("the objective is no function", "text, or a function of a scheme at a valence")),
+        Err(_) => {
+            return Err(Failure::usage(
+                "the objective is no function",
+                "text, or a function of a scheme at a valence",
+            ));
+        }
     };
     let named = match &own {
         None => Some(minimise.extract::<String>()?.parse::<Goal>()?),
@@ -271,7 +290,10 @@ pub fn table_columns<'py>(
     valences: &Bound<'py, PyAny>,
     progress: Option<Py<PyAny>>,
 ) -> Result<Bound<'py, PyDict>, Failure> {
-    let valences = values::indices(valences, "valences")?.into_iter().map(|n| n as usize).collect();
+    let valences = values::indices(valences, "valences")?
+        .into_iter()
+        .map(|n| n as usize)
+        .collect();
     let parameters = Parameters::new(valences, Knots::Detected, &Options::default(), &Range::default());
     let found = work::run(py, progress, move |reporter| {
         check(&parameters)?;

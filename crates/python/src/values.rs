@@ -148,7 +148,9 @@ pub fn numbers(given: &Bound<'_, PyAny>, what: &str) -> Result<Vec<f64>, Failure
         }
         Err(_) => match given.extract::<f64>() {
             Ok(number) => vec![number],
-            Err(_) => given.extract::<Vec<f64>>().map_err(|_| refuse("no numbers".to_owned()))?,
+            Err(_) => given
+                .extract::<Vec<f64>>()
+                .map_err(|_| refuse("no numbers".to_owned()))?,
         },
     };
     match entries.iter().position(|x| !x.is_finite()) {

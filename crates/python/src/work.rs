@@ -1,8 +1,8 @@
-//! Long work: without the interpreter's lock, on a thread of its own, while the calling thread listens for Ctrl-C and
-//! tells the caller's callback how far the work has come.
+//! Long work: without the interpreter's lock, on a thread of its own, while the calling thread listens for
+//! Ctrl-C and tells the caller's callback how far the work has come.
 //!
-//! Work ends early at the next step that it reports: the report unwinds through it. What reports nothing for a while
-//! runs on in the background until then, and its result is dropped.
+//! Work ends early at the next step that it reports: the report unwinds through it. What reports nothing for
+//! a while runs on in the background until then, and its result is dropped.
 
 use crate::failure::Failure;
 use eigenring_atlas::progress::{Progress, Task};

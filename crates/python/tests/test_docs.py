@@ -16,7 +16,7 @@ def items():
         if inspect.isclass(item):
             for member, value in vars(item).items():
                 # the attributes of an exception, and of plain results, are told by the class
-                if not member.startswith("_") and name not in ("Error", "Sample"):
+                if not member.startswith("_") and name not in ("Error", "LimitPoints", "Sample"):
                     yield f"{name}.{member}", getattr(value, "__func__", value)
 
 

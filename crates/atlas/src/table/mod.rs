@@ -214,6 +214,11 @@ impl Table {
         self
     }
 
+    /// The names of the columns.
+    pub fn columns(&self) -> &[String] {
+        &self.columns
+    }
+
     /// The rows as objects.
     pub fn json(&self) -> Value {
         let object = |row: &Vec<Cell>| {

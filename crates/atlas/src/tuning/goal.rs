@@ -1,9 +1,10 @@
 //! What is minimised, and under which conditions.
 
 use crate::error::{Accepted, Error};
-use eigenring_scheme::{Number, did_you_mean};
+use eigenring_scheme::{Number, Scheme, did_you_mean};
 use std::fmt;
 use std::str::FromStr;
+use std::sync::Arc;
 
 /// A number that says how good a scheme is at a valence; smaller is better.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,11 +54,44 @@ impl fmt::Display for Measure {
     }
 }
 
-/// A sum of measures with positive factors, such as `1*E+10*ratio`.
+/// A function of schemes that a program minimises. It must give the same number for the same scheme, and may be
+/// called from several threads; a NaN says that it is not defined.
+#[derive(Clone)]
+pub struct Own {
+    /// What it is called in what is written.
+    pub name: String,
+    /// The function.
+    pub value: Arc<dyn Fn(&Scheme<f64>) -> f64 + Send + Sync>,
+}
+
+impl fmt::Debug for Own {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Own").field("name", &self.name).finish_non_exhaustive()
+    }
+}
+
+impl PartialEq for Own {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name && Arc::ptr_eq(&self.value, &other.value)
+    }
+}
+
+/// A sum of measures with positive factors, such as `1*E+10*ratio`, and a program's own function.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Goal {
     /// The factors and what they are of.
     pub terms: Vec<(f64, Measure)>,
+    /// What is added.
+    pub own: Option<Own>,
+}
+
+impl From<Own> for Goal {
+    fn from(own: Own) -> Self {
+        Goal {
+            terms: Vec::new(),
+            own: Some(own),
+        }
+    }
 }
 
 impl fmt::Display for Goal {
@@ -66,7 +100,9 @@ impl fmt::Display for Goal {
             1.0 => measure.to_string(),
             factor => format!("{factor}*{measure}"),
         };
-        f.write_str(&self.terms.iter().map(term).collect::<Vec<_>>().join("+"))
+        let own = self.own.iter().map(|own| own.name.clone());
+        let terms: Vec<String> = self.terms.iter().map(term).chain(own).collect();
+        f.write_str(&terms.join("+"))
     }
 }
 
@@ -111,6 +147,7 @@ impl FromStr for Goal {
         let terms = text.split('+').map(term);
         Ok(Goal {
             terms: terms.collect::<Result<_, _>>()?,
+            own: None,
         })
     }
 }

@@ -93,9 +93,10 @@ impl<'a> Measured<'a> {
     /// What is minimised; NaN where it is not defined.
     pub(super) fn value(&self, goal: &Goal) -> f64 {
         let terms = goal.terms.iter();
-        terms
+        let terms: f64 = terms
             .map(|(factor, measure)| factor * self.measure(*measure).unwrap_or(f64::NAN))
-            .sum()
+            .sum();
+        terms + goal.own.as_ref().map_or(0.0, |own| (own.value)(self.scheme))
     }
 
     fn measure(&self, measure: Measure) -> Option<f64> {

@@ -12,7 +12,7 @@ mod goal;
 mod measured;
 mod output;
 
-pub use goal::{Condition, Goal, Measure};
+pub use goal::{Condition, Goal, Measure, Own};
 
 use crate::error::Error;
 use crate::progress::{Progress, each};

@@ -5,11 +5,9 @@ use crate::args::{self, SchemeOnMesh};
 use crate::error::Error;
 use crate::output::Output;
 use clap::Args;
-use eigenring_atlas::curvature::{Extremes, centre_table, curvatures};
-use eigenring_atlas::meshes::Fields;
+use eigenring_atlas::curvature::{centre_table, curvatures, euler_of_smooth, summary};
 use eigenring_atlas::table::{Format, pretty};
-use eigenring_surface::{Facts, Surface, Topology};
-use serde_json::json;
+use eigenring_surface::Surface;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -68,27 +66,12 @@ impl Arguments {
         }
         let mesh = self.surface.mesh(&self.file)?;
         let rules = self.surface.rules(&self.scheme.scheme()?, &mesh)?;
-        let topology = Topology::new(&mesh).map_err(eigenring_surface::Error::from)?;
-        let facts = Facts::of(&mesh, &topology);
-        let smooth = facts.boundary_loops.is_empty() && facts.features.sharp_edges == 0;
+        let euler = euler_of_smooth(&mesh)?;
         let in_file = |error: eigenring_surface::Error| eigenring_atlas::Error::from(error).in_file(&self.file);
         let surface = Surface::new(&mesh, &rules).map_err(in_file)?;
-        let found = curvatures(&surface, self.per_face, smooth.then_some(facts.euler))?;
+        let found = curvatures(&surface, self.per_face, euler)?;
         let table = centre_table(&surface, &found, &radii)?;
-        let totals = found.totals;
-        let range = |extremes: &Extremes| {
-            let end = |(value, place): (f64, eigenring_surface::Place)| json!({ "value": value, "face": place.face, "sub": place.sub, "s": place.s, "t": place.t });
-            json!({ "min": end(extremes.least), "max": end(extremes.greatest) })
-        };
-        let fields = Fields(vec![
-            ("area", json!(totals.area)),
-            ("gauss", json!(found.extremes.as_ref().map(|e| range(&e[0])))),
-            ("mean", json!(found.extremes.as_ref().map(|e| range(&e[1])))),
-            ("gauss_average", json!(totals.gauss / totals.area)),
-            ("mean_average", json!(totals.mean / totals.area)),
-            ("total_gauss", json!(totals.gauss)),
-            ("two_pi_chi", json!(found.expected)),
-        ]);
+        let fields = summary(&found);
         let text = match format {
             Format::Json => {
                 let mut object = fields.json();

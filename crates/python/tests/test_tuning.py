@@ -1,0 +1,112 @@
+"""Tuning: the command on the same file, own objectives, and what callbacks may do."""
+
+import pathlib
+import signal
+import threading
+
+import pytest
+
+import eigenring
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+
+TEXT = (
+    'name = "cc"\nkind = "one-ring"\n[parameters]\na = { default = "3/2", range = ["1", "7/4"] }\n[rule]\nn = "3.."\n'
+    'f1 = "1/4"\nf2 = "1/4"\nf3 = "1/4"\nd1 = "3/8"\nd2 = "3/8"\ne1 = "1/16"\ne2 = "1/16"\n'
+    'alpha = "a/n"\nbeta = "1/(4*n)"\n'
+)
+
+
+def parameter(tuned):
+    return tuned.json()["rows"][0]["parameters"]["a"]
+
+
+def test_files_are_tuned_as_the_command_does(command, tmp_path):
+    path = tmp_path / "cc.toml"
+    path.write_text(TEXT)
+    options = ["--minimise", "E", "--subject-to", "hull", "--descents", "2"]
+    printed = command("tune", "--scheme", f"file:{path}", "-N", "5", *options, "--format", "json")
+    tuned = eigenring.tune(path, 5, "E", subject_to=["hull"], descents=2)
+    assert tuned.json() == printed
+    assert eigenring.Scheme(tuned.text).at(5).verify().json()["checks"] == tuned.certificates[0].json()["checks"]
+
+
+def test_an_own_objective_finds_what_the_built_in_one_finds():
+    built_in = eigenring.tune(TEXT, 6, "lambda:0.57", descents=2)
+    own = eigenring.tune(TEXT, 6, lambda at: abs(at.spectrum().subdominant - 0.57), descents=2)
+    assert parameter(own) == pytest.approx(parameter(built_in), abs=1e-6)
+    # the oracle is the rule itself: edge neighbours of the centre have the weight a / n^2
+    best = eigenring.tune(TEXT, 6, lambda at: abs(at.matrix(1)[0, 1] * 36 - 1.3), descents=1)
+    assert parameter(best) == pytest.approx(1.3, abs=1e-6)
+
+
+def test_the_lambda_scheme_is_tuned_as_the_command_does(command):
+    printed = command("tune", "-N", "5", "--lambda", "0.5", "--format", "json")
+    assert eigenring.tune("lambda", 5, lambda_=0.5).json() == printed
+
+
+def test_exceptions_of_objectives_reach_the_caller():
+    def objective(at):
+        raise KeyError("mine")
+
+    with pytest.raises(KeyError):
+        eigenring.tune(TEXT, 5, objective)
+    with pytest.raises(TypeError):
+        eigenring.tune(TEXT, 5, lambda at: "three")
+
+
+def test_progress_is_told_and_may_stop():
+    told = []
+    eigenring.tune(TEXT, 5, "E", descents=3, progress=lambda *stage: told.append(stage))
+    assert told and all(done <= total for _, done, total in told)
+
+    def stop(what, done, total):
+        raise InterruptedError
+
+    with pytest.raises(InterruptedError):
+        eigenring.tune(TEXT, [3, 5, 6, 7, 8], "E", descents=50, progress=stop)
+
+
+def test_interrupts_end_long_work():
+    timer = threading.Timer(0.3, lambda: signal.raise_signal(signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        eigenring.tune(TEXT, list(range(3, 40)), "E", descents=5000)
+    timer.join()
+
+
+def test_tables_are_stored_and_computed():
+    entry = eigenring.lambda_table(5)
+    assert entry["valence"] == 5
+    pandas = pytest.importorskip("pandas")
+    featured = eigenring.tables([4])["table1_featured_lambda"]
+    # the oracle is what the command has stored
+    stored = pandas.read_csv(ROOT / "results" / "lambda" / "table1_featured_lambda.csv")
+    stored = stored[stored["valence"] == 4].reset_index(drop=True)
+    assert featured["name"].tolist() == stored["name"].tolist()
+    for column in ("lambda", "f2", "f3", "E"):
+        assert featured[column].tolist() == pytest.approx(stored[column].tolist(), rel=1e-9, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: eigenring.tune(TEXT, 5),
+        lambda: eigenring.tune(TEXT, 5, "beauty"),
+        lambda: eigenring.tune(TEXT, 5, 3),
+        lambda: eigenring.tune(TEXT, 2, "E"),
+        lambda: eigenring.tune(TEXT, 5, "E", margin=float("nan")),
+        lambda: eigenring.tune(TEXT, 5, "E", descents=0),
+        lambda: eigenring.tune(TEXT, 5, "E", subject_to=["beauty"]),
+        lambda: eigenring.tune(TEXT, 5, "E", fix={"b": 1}),
+        lambda: eigenring.tune("catmull-clark", 5, "E"),
+        lambda: eigenring.tune("lambda", 5, lambda_=2.0),
+        lambda: eigenring.tune("lambda", [5, 6], lambda_=0.5),
+        lambda: eigenring.lambda_table(1000),
+        lambda: eigenring.lambda_table(2),
+        lambda: eigenring.tables([2]),
+    ],
+)
+def test_bad_input_is_refused(call):
+    with pytest.raises(eigenring.Error):
+        call()
