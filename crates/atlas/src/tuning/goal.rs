@@ -54,8 +54,8 @@ impl fmt::Display for Measure {
     }
 }
 
-/// A function of schemes that a program minimises. It must give the same number for the same scheme, and may be
-/// called from several threads; a NaN says that it is not defined.
+/// A function of schemes that a program minimises. It must give the same number for the same scheme, and may
+/// be called from several threads; a NaN says that it is not defined.
 #[derive(Clone)]
 pub struct Own {
     /// What it is called in what is written.
