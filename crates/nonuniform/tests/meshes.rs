@@ -144,3 +144,63 @@ fn meshes_are_refined_as_by_the_prototype() {
         }
     }
 }
+
+/// The polar form of the cubic with these coefficients, lowest first.
+fn polar(c: [f64; 4], [a, b, d]: [f64; 3]) -> f64 {
+    c[0] + c[1] * (a + b + d) / 3.0 + c[2] * (a * b + a * d + b * d) / 3.0 + c[3] * a * b * d
+}
+
+/// Products of cubics are refined exactly, whatever the intervals: inner points are values of polar forms at
+/// the refined knots.
+#[test]
+fn intervals_of_a_ratio_of_a_million_lose_few_digits() {
+    let mut sequence = crate::common::Sequence(6);
+    for ratio in [30.0, 1e6] {
+        let mut direction = || {
+            let d = sequence.intervals(5, ratio);
+            let mut knots = vec![-d[0], 0.0];
+            d.iter().for_each(|d| knots.push(knots[knots.len() - 1] + d));
+            knots.push(knots[6] + d[4]);
+            // of unit size over all knots
+            let size = knots[6];
+            let c = [0, 1, 2, 3].map(|k| (sequence.next() - 0.5) / size.powi(k));
+            (d, knots, c)
+        };
+        let ((du, u, p), (dv, v, q)) = (direction(), direction());
+        let control = |knots: &[f64], c: [f64; 4]| -> Vec<f64> {
+            knots.windows(3).map(|t| polar(c, [t[0], t[1], t[2]])).collect()
+        };
+        let fine = |knots: &[f64], c: [f64; 4]| {
+            let halves = knots.windows(2).flat_map(|t| [t[0], 0.5 * (t[0] + t[1])]);
+            let halved: Vec<f64> = halves.chain([knots[knots.len() - 1]]).collect();
+            // from the first knot on: the edge, the vertex, and so on; the ends are boundaries
+            control(&halved[1..halved.len() - 1], c)
+        };
+        let products = |u: &[f64], v: &[f64]| -> Vec<Vec<f64>> {
+            v.iter()
+                .flat_map(|b| u.iter().map(move |a| vec![*a, *b, a * b]))
+                .collect()
+        };
+        let case = Regular {
+            points: products(&control(&u, p), &control(&v, q)),
+            du,
+            dv,
+            doubled_columns: Vec::new(),
+            doubled_rows: Vec::new(),
+            homogeneous: false,
+            levels: Vec::new(),
+        };
+        let (mesh, _) = grid(&case);
+        let (inner_u, inner_v) = (fine(&u, p), fine(&v, q));
+        let inner = products(&inner_u[1..inner_u.len() - 1], &inner_v[1..inner_v.len() - 1]);
+        for scheme in [Scheme::Nurss, Scheme::EigenPolyhedron, HNUSS] {
+            let found = refined(&mesh, scheme, 1, Outside::Error).unwrap().mesh;
+            for point in &inner {
+                let gap = |p: &Point3<f64>| (0..3).map(|k| (p[k] - point[k]).abs()).fold(0.0, f64::max);
+                let nearest = found.points().iter().map(gap).fold(f64::INFINITY, f64::min);
+                let tolerance = if ratio > 100.0 { 1e-11 } else { 1e-13 };
+                assert!(nearest < tolerance, "{scheme} {ratio}: {nearest:e}");
+            }
+        }
+    }
+}
