@@ -6,13 +6,13 @@ from ._error import Error
 from ._native import table_columns
 
 if TYPE_CHECKING:
-    import pandas
+    import pandas as _pandas
 
 
 def tables(
     valences: Sequence[int] = tuple(range(3, 21)),
     progress: Optional[Callable[[str, int, int], object]] = None,
-) -> "Dict[str, pandas.DataFrame]":
+) -> "Dict[str, _pandas.DataFrame]":
     """The tables of the lambda-scheme from nothing, as ``eigenring tables`` writes them: a dict of pandas data frames.
 
     Some seconds of work for each valence; ``progress(what, done, total)`` is called now and then.
