@@ -8,7 +8,7 @@ use crate::work;
 use eigenring_atlas::curvature::{centre_table, curvatures, euler_of_smooth, summary};
 use eigenring_atlas::memory::excess;
 use eigenring_atlas::on_mesh::OnMesh;
-use eigenring_atlas::render::{Settings, Show, render};
+use eigenring_atlas::render::{Settings, Show, Subject, render};
 use eigenring_atlas::schemes::{SchemeName, Tuner};
 use eigenring_atlas::{files, limits, meshes};
 use eigenring_surface::{self as surface, Boundary, Place, Point3, Refiner, Rules, Surface, features};
@@ -464,6 +464,7 @@ impl Mesh {
             stripes,
             y_up: up == "y",
             size,
+            columns: 1,
         };
         let (owner, name) = scheme.on_mesh(py)?;
         let mesh = Arc::clone(&self.mesh);
@@ -476,7 +477,7 @@ impl Mesh {
             let rules = meshes::rules(&name, &mesh, &[], &tuner)?;
             let surface = Surface::new(&mesh, &rules)?;
             let title = name.called(&rules.definition().name());
-            let page = render(&[(title, surface)], &settings)?;
+            let page = render(&[(title, Subject::Surface(Box::new(surface)))], &settings)?;
             Ok(page.png().map_err(eigenring_atlas::Error::from)?)
         })?;
         Ok(Picture { bytes })
