@@ -360,6 +360,7 @@ fn help_has_examples_and_no_escape_sequences() {
         "plot",
     ] {
         assert!(top.contains(&format!("  {command} ")), "{command}");
+        place.write("points.csv", "0,0\n1,2\n3,1\n4,4\n6,0\n");
         let help = place.ok(&[command, "--help"]);
         assert!(
             help.contains("Example") && help.contains(&format!("  eigenring {command}")),

@@ -89,7 +89,7 @@ fn bad_input_ends_with_one_line_and_leaves_nothing() {
     place.write("empty.obj", "");
     place.write(
         "soft.obj",
-        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nf 1 2 3 4\nf 2 5 6 3\nt crease 2/1/0 1 2 10\nt steps 2/1/0 1 2 1\n",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nf 1 2 3 4\nf 2 5 6 3\nt crease 2/1/0 1 2 10\nt steps 2/1/0 1 2 5\n",
     );
     std::fs::create_dir(place.path().join("folder.obj")).unwrap();
     for (line, needle) in [
@@ -110,7 +110,7 @@ fn bad_input_ends_with_one_line_and_leaves_nothing() {
         ),
         ("subdivide cube.obj --scheme catmull-clark --threads 0", "threads"),
         ("subdivide cube.obj --scheme doo-sabin --lambda-map x.csv", "x.csv"),
-        ("limit soft.obj --scheme tension:order=6 --vertices", "cs = 2"),
+        ("limit soft.obj --scheme tension:order=6 --vertices", "0 to 2"),
         ("limit cube.obj --scheme catmull-clark", "--points"),
         ("make cube -n 4 -o out.obj", "no -n"),
     ] {

@@ -54,6 +54,9 @@ impl fmt::Display for Measure {
     }
 }
 
+/// A number of a scheme that a caller computes.
+pub type OwnFunction = dyn Fn(&Scheme<f64>) -> f64 + Send + Sync;
+
 /// A function of schemes that a program minimises. It must give the same number for the same scheme, and may
 /// be called from several threads; a NaN says that it is not defined.
 #[derive(Clone)]
@@ -61,7 +64,7 @@ pub struct Own {
     /// What it is called in what is written.
     pub name: String,
     /// The function.
-    pub value: Arc<dyn Fn(&Scheme<f64>) -> f64 + Send + Sync>,
+    pub value: Arc<OwnFunction>,
 }
 
 impl fmt::Debug for Own {
