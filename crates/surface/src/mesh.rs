@@ -58,7 +58,7 @@ impl Mesh {
     }
 
     /// A mesh of quads, four corners each, all of them below the number of points.
-    pub(crate) fn of_quads(points: Vec<Point3<f64>>, corners: Vec<u32>) -> Self {
+    pub fn of_quads(points: Vec<Point3<f64>>, corners: Vec<u32>) -> Self {
         debug_assert!(corners.len().is_multiple_of(4));
         Mesh {
             points,

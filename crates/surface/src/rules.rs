@@ -217,7 +217,10 @@ impl Rules {
     }
 
     /// The scheme around a smooth vertex without active edges, or around the middle of a face.
-    pub(crate) fn inner(&self, vertex: Option<u32>, valence: usize) -> Result<Arc<Scheme<f64>>, Error> {
+    ///
+    /// # Errors
+    /// Those of the definition.
+    pub fn inner(&self, vertex: Option<u32>, valence: usize) -> Result<Arc<Scheme<f64>>, Error> {
         let special = vertex.is_some_and(|v| self.by_vertex.contains_key(&v));
         let listed = |n| match self.definition() {
             Definition::File(file) => file.valences().any(|valence| valence == n),

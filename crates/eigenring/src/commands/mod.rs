@@ -7,6 +7,7 @@ mod curvature;
 mod curve;
 mod eigenvectors;
 mod glossary;
+mod iga;
 mod limit;
 mod make;
 mod matrix;
@@ -69,6 +70,7 @@ enum Command {
     Curve(curve::Arguments),
     Mesh(mesh::Arguments),
     Subdivide(subdivide::Arguments),
+    Iga(iga::Arguments),
     Limit(limit::Arguments),
     Make(make::Arguments),
     Curvature(curvature::Arguments),
@@ -99,6 +101,7 @@ impl Cli {
             Command::Curve(arguments) => arguments.run(),
             Command::Mesh(arguments) => arguments.run(),
             Command::Subdivide(arguments) => arguments.run(),
+            Command::Iga(arguments) => arguments.run(),
             Command::Limit(arguments) => arguments.run(),
             Command::Make(arguments) => arguments.run(),
             Command::Curvature(arguments) => arguments.run(),

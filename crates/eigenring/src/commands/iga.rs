@@ -1,0 +1,218 @@
+//! `eigenring iga`: Galerkin solutions on subdivision spaces.
+
+use crate::args::{self, OneScheme};
+use crate::error::Error;
+use crate::output::Output;
+use crate::progress::note;
+use crate::threads::Threads;
+use clap::{Args, Subcommand, ValueEnum};
+use eigenring_atlas::meshes;
+use eigenring_atlas::table::Format;
+use eigenring_iga::{Ends, Norms, Options, Outcome, Problem, Study, solution};
+use serde_json::{Value, json};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Solve on the basis functions of a subdivision scheme, and measure the errors.
+#[derive(Args, Debug)]
+pub struct Arguments {
+    #[command(subcommand)]
+    problem: Task,
+}
+
+#[derive(Subcommand, Debug)]
+enum Task {
+    /// Poisson's equation with a manufactured solution
+    Poisson(Solve),
+    /// The projection in the mean square
+    L2(Solve),
+    /// Poisson's equation with a linear solution, which must be met: exit 1 if it is not
+    PatchTest(Solve),
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Beyond {
+    Open,
+    Natural,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+enum Tail {
+    Drop,
+    Scaled,
+}
+
+#[derive(Args, Debug)]
+struct Solve {
+    /// The control mesh, planar with z = 0: .obj, .off or .ply
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    #[command(flatten)]
+    scheme: OneScheme,
+    /// sin, exp, mix, lin or quadratic
+    #[arg(long, value_name = "NAME", default_value = "exp")]
+    solution: String,
+    /// The number of levels, 1 to 8
+    #[arg(long, default_value = "4")]
+    levels: usize,
+    /// The solution beyond the boundary
+    #[arg(long, value_enum, default_value = "open")]
+    boundary: Beyond,
+    /// Gauss points of an element in each direction, 2 to 10
+    #[arg(long, default_value = "4")]
+    gauss: usize,
+    /// Annuli at extraordinary vertices: auto or 1 to 200
+    #[arg(long, value_name = "auto|M", default_value = "auto")]
+    depth: String,
+    /// What the annuli beyond the depth count
+    #[arg(long, value_enum, default_value = "drop")]
+    tail: Tail,
+    #[command(flatten)]
+    threads: Threads,
+    #[command(flatten)]
+    output: Output,
+}
+
+impl Arguments {
+    pub fn run(self) -> Result<ExitCode, Error> {
+        match self.problem {
+            Task::Poisson(solve) => solve.run("poisson", Problem::Poisson),
+            Task::L2(solve) => solve.run("l2", Problem::L2),
+            Task::PatchTest(solve) => Solve {
+                solution: "lin".to_owned(),
+                ..solve
+            }
+            .run("patch-test", Problem::Poisson),
+        }
+    }
+}
+
+/// What the errors of a linear solution must not exceed: L2, H1, H2.
+const PATCH_TEST: [f64; 3] = [1e-12, 1e-11, 1e-9];
+
+fn norms(of: &Norms) -> [(&'static str, f64); 4] {
+    [("L2", of.l2), ("H1", of.h1), ("H2", of.h2), ("Linf", of.linf)]
+}
+
+/// A level with its rates to the one before.
+fn level(number: usize, outcome: &Outcome, before: Option<&Outcome>) -> Value {
+    let pairs = |values: Vec<(&str, f64)>| -> Value {
+        values
+            .into_iter()
+            .map(|(name, value)| (name.to_owned(), json!(value)))
+            .collect::<serde_json::Map<_, _>>()
+            .into()
+    };
+    let beside = |other: &Norms, f: fn(f64, f64) -> f64| {
+        let own = norms(&outcome.error).into_iter().zip(norms(other));
+        pairs(own.map(|((name, a), (_, b))| (name, f(a, b))).collect())
+    };
+    let mut value = json!({
+        "level": number,
+        "h": 0.5_f64.powi(number as i32),
+        "faces": outcome.faces,
+        "dof": outcome.dof,
+        "relative": beside(&outcome.norm, |a, b| a / b),
+        "rate": before.map(|before| beside(&before.error, |a, b| (b / a).log2())),
+        "quadrature_points": outcome.points,
+        "seconds": {"assembly": outcome.seconds[0], "solve": outcome.seconds[1], "errors": outcome.seconds[2]},
+    });
+    for (name, error) in norms(&outcome.error) {
+        value[name] = json!(error);
+    }
+    value
+}
+
+fn refused(error: eigenring_iga::Error) -> Error {
+    Error::Atlas(eigenring_atlas::Error::refused(
+        error.to_string(),
+        eigenring_atlas::Accepted::Are(
+            "planar meshes of quads with boundary, under a bicubic one-ring scheme".to_owned(),
+        ),
+    ))
+}
+
+impl Solve {
+    fn run(self, name: &str, problem: Problem) -> Result<ExitCode, Error> {
+        self.threads.start()?;
+        let format = self.output.format()?;
+        let u = solution::named(&self.solution)
+            .ok_or_else(|| Error::range("solution", &self.solution, solution::NAMES.join(", ")))?;
+        if !(1..=8).contains(&self.levels) {
+            return Err(Error::range("levels", self.levels, "1 to 8"));
+        }
+        let depth = match self.depth.as_str() {
+            "auto" => None,
+            text => Some(
+                text.parse()
+                    .map_err(|_| Error::range("depth", text, "auto and 1 to 200"))?,
+            ),
+        };
+        let ends = match self.boundary {
+            Beyond::Open => Ends::Open,
+            Beyond::Natural => Ends::Natural,
+        };
+        let options = Options {
+            ends,
+            gauss: self.gauss,
+            depth,
+            scaled: self.tail == Tail::Scaled,
+        };
+        let (mesh, notices) = meshes::read_surface(&self.file)?;
+        notices.iter().for_each(|notice| note(notice));
+        let scheme = self.scheme.name()?;
+        let rules = meshes::rules(&scheme, &mesh, &[], &args::tuner())?;
+        let study = Study::new(&mesh, &rules).map_err(refused)?;
+        if study.steps > 0 {
+            note(&format!(
+                "{} Catmull-Clark steps come first: they separate extraordinary vertices",
+                study.steps
+            ));
+        }
+        let mut outcomes: Vec<Outcome> = Vec::new();
+        for level in 0..self.levels {
+            outcomes.push(study.level(level, problem, &u, &options).map_err(refused)?);
+        }
+        let met = outcomes.iter().all(|outcome| {
+            let error = [outcome.error.l2, outcome.error.h1, outcome.error.h2];
+            error.iter().zip(PATCH_TEST).all(|(error, bound)| *error <= bound)
+        });
+        let levels: Vec<Value> = (0..outcomes.len())
+            .map(|k| level(k, &outcomes[k], k.checked_sub(1).map(|before| &outcomes[before])))
+            .collect();
+        let text = match format {
+            Format::Json => {
+                let [l2, h1, linf, h2] = study.predicted();
+                let value = json!({
+                    "mesh": self.file.display().to_string(),
+                    "scheme": scheme.to_string(),
+                    "problem": name,
+                    "solution": self.solution,
+                    "boundary": if ends == Ends::Open { "open" } else { "natural" },
+                    "gauss": self.gauss,
+                    "depth": self.depth,
+                    "levels": levels,
+                    "predicted": {"L2": l2, "H1": h1, "Linf": linf, "H2": h2},
+                });
+                format!("{value:#}\n")
+            }
+            _ => {
+                let mut text = "level     dof          L2          H1          H2        Linf\n".to_owned();
+                for (k, outcome) in outcomes.iter().enumerate() {
+                    text += &format!("{k:5} {:7}", outcome.dof);
+                    norms(&outcome.error)
+                        .iter()
+                        .for_each(|(_, error)| text += &format!(" {error:11.4e}"));
+                    text.push('\n');
+                }
+                text
+            }
+        };
+        self.output.emit(&text)?;
+        Ok(if name == "patch-test" && !met {
+            ExitCode::FAILURE
+        } else {
+            ExitCode::SUCCESS
+        })
+    }
+}

@@ -1,0 +1,305 @@
+//! The space of one level: control points with a layer of ghosts, and faces with their basis functions.
+//!
+//! Every boundary vertex of two faces has a ghost beyond it, a corner three. The geometry extrapolates,
+//! `c_(-1) = 2 c_0 - c_1`. The solution has either the same relation ([`Ends::Natural`]) or ghosts of its
+//! own, in the basis of an open knot vector ([`Ends::Open`]): `c_(-1) = 6 b_(-1) - 6 b_0 + b_1`,
+//! `c_0 = (3 b_0 - b_1)/2`, `c_1 = b_1` in each normal direction, tensor at corners. Then the trace is a
+//! spline of the ghosts' b alone.
+
+use crate::Error;
+use crate::tables::{Around, Table, far};
+use eigenring_scheme::{Fan, Lattice, Numbering};
+use eigenring_surface::{Mesh, Point3, Rules, Topology};
+use std::collections::{BTreeMap, HashMap};
+
+/// The solution beyond the boundary.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ends {
+    /// Ghost coefficients are unknowns: all bicubic splines.
+    Open,
+    /// Ghosts are extrapolated: the second normal derivative in the parameter vanishes.
+    Natural,
+}
+
+/// A face with its control points, in the order of its kind's table.
+#[derive(Debug)]
+pub(crate) struct Cell {
+    pub kind: Kind,
+    /// The table's numbering of control points, as points of the mesh with ghosts.
+    pub points: Vec<u32>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Kind {
+    Far,
+    Near(usize, [i32; 2]),
+    Irregular(usize),
+}
+
+/// One level of a space.
+#[derive(Debug)]
+pub(crate) struct Space {
+    /// Coordinates of control points and ghosts.
+    pub positions: Vec<[f64; 2]>,
+    pub cells: Vec<Cell>,
+    /// Control points without ghosts.
+    pub inner: usize,
+    /// Control points of the boundary.
+    pub boundary: Vec<bool>,
+    /// Coefficients in unknowns.
+    pub transform: Vec<Vec<(u32, f64)>>,
+    /// The grid of 16 points of each boundary edge: from (0, 0) to (1, 0), the face above.
+    pub edges: Vec<[u32; 16]>,
+    pub around: BTreeMap<usize, Around>,
+}
+
+/// The mesh with its ghosts.
+fn extended(mesh: &Mesh, topology: &Topology) -> Result<(Mesh, Vec<(u32, Corner)>), Error> {
+    let mut points = mesh.points().to_vec();
+    let mut layers = Vec::new();
+    let mut corners = mesh.corners().to_vec();
+    let extrapolated = |a: Point3<f64>, b: Point3<f64>| a + (a - b);
+    let mut beyond: HashMap<u32, [u32; 2]> = HashMap::new();
+    for v in 0..topology.vertex_count() as u32 {
+        let fan = topology.fan(v);
+        let Some(last) = fan.last else { continue };
+        let at = |i: u32| mesh.points()[i as usize];
+        let next = points.len() as u32;
+        match fan.spokes[..] {
+            [spoke] => {
+                let (a, b) = (topology.head(spoke), topology.origin(last));
+                let diagonal = topology.head(topology.next(spoke));
+                let [west, south] = [extrapolated(at(v), at(a)), extrapolated(at(v), at(b))];
+                let along = extrapolated(at(b), at(diagonal));
+                points.extend([west, extrapolated(west, along), south]);
+                corners.extend([v, next, next + 1, next + 2]);
+                beyond.insert(v, [next + 2, next]);
+                layers.push((v, Corner::Two([a, b, diagonal], [next, next + 1, next + 2])));
+            }
+            [_, middle] => {
+                let inside = topology.head(middle);
+                points.push(extrapolated(at(v), at(inside)));
+                beyond.insert(v, [next; 2]);
+                layers.push((v, Corner::One(inside, next)));
+            }
+            _ => {
+                return Err(Error::Reentrant {
+                    vertex: v as usize,
+                    faces: fan.spokes.len(),
+                });
+            }
+        }
+    }
+    for half in (0..topology.half_count() as u32).filter(|&half| topology.twin(half).is_none()) {
+        let [a, b] = topology.ends(half);
+        corners.extend([a, beyond[&a][0], beyond[&b][1], b]);
+    }
+    Ok((Mesh::of_quads(points, corners), layers))
+}
+
+/// The ghosts of a boundary vertex, and what they depend on.
+enum Corner {
+    /// The inner neighbour and the ghost.
+    One(u32, u32),
+    /// At a corner of the domain: neighbours (1,0), (0,1), (1,1); ghosts (-1,0), (-1,-1), (0,-1).
+    Two([u32; 3], [u32; 3]),
+}
+
+/// Control points -1, 0, 1 across the boundary in unknowns -1, 0, 1.
+fn across(ends: Ends) -> [[f64; 3]; 3] {
+    match ends {
+        Ends::Open => [[6.0, -6.0, 1.0], [0.0, 1.5, -0.5], [0.0, 0.0, 1.0]],
+        Ends::Natural => [[0.0, 2.0, -1.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+    }
+}
+
+fn transform(count: usize, layers: &[(u32, Corner)], ends: Ends) -> Vec<Vec<(u32, f64)>> {
+    let mut rows: Vec<Vec<(u32, f64)>> = (0..count as u32).map(|i| vec![(i, 1.0)]).collect();
+    let line = across(ends);
+    let kept = |row: Vec<(u32, f64)>| row.into_iter().filter(|(_, w)| *w != 0.0).collect();
+    for (v, corner) in layers {
+        match corner {
+            Corner::One(inside, ghost) => {
+                let ids = [*ghost, *v, *inside];
+                for i in 0..2 {
+                    rows[ids[i] as usize] = kept((0..3).map(|k| (ids[k], line[i][k])).collect());
+                }
+            }
+            Corner::Two([a, b, diagonal], [west, both, south]) => {
+                // ids[i][j] is the point (i - 1, j - 1); its neighbours' ghosts are found by their rows
+                let ghost = |of: u32| {
+                    layers.iter().find_map(|(w, c)| match c {
+                        Corner::One(_, ghost) if *w == of => Some(*ghost),
+                        _ => None,
+                    })
+                };
+                let (Some(under), Some(beside)) = (ghost(*a), ghost(*b)) else {
+                    continue;
+                };
+                let ids = [[*both, *west, beside], [*south, *v, *b], [under, *a, *diagonal]];
+                for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                    let terms = (0..9).map(|k| (ids[k / 3][k % 3], line[i][k / 3] * line[j][k % 3]));
+                    rows[ids[i][j] as usize] = kept(terms.collect());
+                }
+            }
+        }
+    }
+    rows
+}
+
+/// The 16 points around the face of a half-edge, which runs from (0, 0) to (1, 0). All corners are regular.
+fn grid(topology: &Topology, half: u32) -> Option<[u32; 16]> {
+    let mut points = [0; 16];
+    let mut half = half;
+    let (mut at, mut d) = ([0_i32, 0], [1_i32, 0]);
+    for _ in 0..4 {
+        let e = [-d[1], d[0]];
+        let west = topology.turned(topology.turned(half)?)?;
+        let south = topology.turned(west)?;
+        let mut set = |x: i32, y: i32, v: u32| points[(4 * (y + 1) + x + 1) as usize] = v;
+        set(at[0], at[1], topology.origin(half));
+        set(at[0] - d[0], at[1] - d[1], topology.head(west));
+        set(
+            at[0] - d[0] - e[0],
+            at[1] - d[1] - e[1],
+            topology.head(topology.next(west)),
+        );
+        set(at[0] - e[0], at[1] - e[1], topology.head(south));
+        at = [at[0] + d[0], at[1] + d[1]];
+        d = e;
+        half = topology.next(half);
+    }
+    Some(points)
+}
+
+/// The points of two rings around a vertex, sector 0 at a spoke.
+fn two_rings(topology: &Topology, half: u32, valence: usize) -> Option<Vec<u32>> {
+    let numbering = Numbering {
+        fan: Fan::Closed(valence),
+        lattice: Lattice::Vertex,
+        rings: 2,
+    };
+    let mut points = vec![0; numbering.count()];
+    let straight = |half: u32| topology.turned_back(topology.next(half));
+    let mut spokes = vec![half];
+    while spokes.len() < valence {
+        spokes.push(topology.turned(*spokes.last()?)?);
+    }
+    for site in numbering.sites() {
+        let Some(index) = numbering.index(site) else { continue };
+        let mut at = spokes[site.sector];
+        if site.x == 0 {
+            points[index] = topology.origin(at);
+            continue;
+        }
+        for _ in 1..site.x / 2 {
+            at = straight(at)?;
+        }
+        for step in 0..site.y / 2 {
+            at = if step == 0 { topology.next(at) } else { straight(at)? };
+        }
+        points[index] = topology.head(at);
+    }
+    Some(points)
+}
+
+impl Space {
+    /// The space over a mesh of quads; `None` if extraordinary vertices or boundaries are too close.
+    pub fn new(mesh: &Mesh, rules: &Rules, ends: Ends, tuned: bool) -> Result<Option<Self>, Error> {
+        let coarse = Topology::new(mesh).map_err(eigenring_surface::Error::from)?;
+        let (full, layers) = extended(mesh, &coarse)?;
+        let topology = Topology::unchecked(&full);
+        let inner = mesh.points().len();
+        let mut boundary = vec![false; full.points().len()];
+        for (v, _) in &layers {
+            boundary[*v as usize] = true;
+        }
+        for number in 0..coarse.edge_count() as u32 {
+            let [a, b] = coarse.edge_points(number);
+            if !coarse.is_boundary(number) && boundary[a as usize] && boundary[b as usize] {
+                return Ok(None);
+            }
+        }
+        let valence: Vec<usize> = (0..inner as u32).map(|v| topology.fan(v).spokes.len()).collect();
+        let special = |v: u32| (v as usize) < inner && valence[v as usize] != 4;
+        let mut around = BTreeMap::new();
+        let mut cells = Vec::with_capacity(mesh.face_count());
+        for face in 0..mesh.face_count() as u32 {
+            let halves = topology.face_halves(face);
+            let mut centres = halves.clone().filter(|&half| special(topology.origin(half)));
+            if let Some(half) = centres.next() {
+                let n = valence[topology.origin(half) as usize];
+                let Some(points) = two_rings(&topology, half, n) else {
+                    return Ok(None);
+                };
+                let others = points.iter().skip(1).any(|&v| special(v));
+                let rim = points.iter().skip(1).any(|&v| v as usize >= inner);
+                if centres.next().is_some() || (tuned && (others || rim)) {
+                    return Ok(None);
+                }
+                cells.push(Cell {
+                    kind: Kind::Irregular(n),
+                    points,
+                });
+                if let std::collections::btree_map::Entry::Vacant(entry) = around.entry(n) {
+                    entry.insert(Around::new(rules.inner(None, n)?.limit())?);
+                }
+                continue;
+            }
+            let grids: Option<Vec<[u32; 16]>> = halves.map(|half| grid(&topology, half)).collect();
+            let Some(grids) = grids else { return Ok(None) };
+            let count = grids[0].iter().filter(|&&v| special(v)).count();
+            if !tuned || count == 0 {
+                cells.push(Cell {
+                    kind: Kind::Far,
+                    points: grids[0].to_vec(),
+                });
+                continue;
+            }
+            let beside = grids.iter().find_map(|grid| {
+                let places = [(4, [1, 0]), (0, [1, 1]), (1, [0, 1])];
+                places
+                    .iter()
+                    .find(|(k, _)| special(grid[*k]))
+                    .map(|(k, at)| (grid, grid[*k], *at))
+            });
+            let Some((grid, v, at)) = beside.filter(|_| count == 1) else {
+                return Ok(None);
+            };
+            cells.push(Cell {
+                kind: Kind::Near(valence[v as usize], at),
+                points: grid.to_vec(),
+            });
+        }
+        let edges: Option<Vec<[u32; 16]>> = (0..coarse.half_count() as u32)
+            .filter(|&half| coarse.twin(half).is_none())
+            .map(|half| grid(&topology, half))
+            .collect();
+        let Some(edges) = edges else { return Ok(None) };
+        Ok(Some(Space {
+            positions: full.points().iter().map(|p| [p.x, p.y]).collect(),
+            cells,
+            inner,
+            boundary,
+            transform: transform(full.points().len(), &layers, ends),
+            edges,
+            around,
+        }))
+    }
+
+    /// The tables of all kinds of faces.
+    pub fn tables(&self, order: usize, depth: Option<usize>, scaled: bool) -> BTreeMap<Kind, Table> {
+        let mut tables = BTreeMap::new();
+        for cell in &self.cells {
+            tables.entry(cell.kind).or_insert_with(|| match cell.kind {
+                Kind::Far => far(order),
+                Kind::Near(n, at) => self.around[&n].near(order, at),
+                Kind::Irregular(n) => {
+                    let around = &self.around[&n];
+                    around.irregular(order, depth.unwrap_or_else(|| around.depth()), scaled)
+                }
+            });
+        }
+        tables
+    }
+}

@@ -1,0 +1,240 @@
+//! Values and derivatives of basis functions at the quadrature points of a face: tables that depend on the
+//! scheme, the valence and the rule only, and are shared by all faces.
+//!
+//! A face at an extraordinary vertex consists of annuli m = 0, 1, .., each of 12 bicubic patches with control
+//! points `T_53 T_32 S^m`. Derivatives use `S - 1 l^T` in place of S: the rows of `S^m` tend to the limit
+//! stencil l, and their differences would lose `lambda^-m` of their digits for each order. A patch has
+//! parameters of its own, so there are no powers of two; Jacobians may become as small as `lambda^2m`.
+
+use crate::Error;
+use eigenring_scheme::{DenseNet, Level, Site, refine};
+use eigenring_spectral::{LocalSystem, Matrix, local_matrix, numbering};
+use eigenring_spline::quadrature::gauss_legendre;
+
+/// Value, s, t, ss, st, tt.
+pub(crate) type Jet = [f64; 6];
+
+/// Basis functions at the points of a rule.
+#[derive(Clone, Debug)]
+pub(crate) struct Table {
+    /// Which control points of the numbering the functions belong to.
+    pub columns: Vec<usize>,
+    /// Weights of the points, in patch parameters.
+    pub weights: Vec<f64>,
+    /// For each point the jets of the functions.
+    pub jets: Vec<Jet>,
+}
+
+impl Table {
+    /// The jets of all functions at a point.
+    pub fn at(&self, point: usize) -> &[Jet] {
+        let n = self.columns.len();
+        &self.jets[point * n..(point + 1) * n]
+    }
+}
+
+/// Uniform cubic B-splines on one interval: values, first and second derivatives.
+fn cubic(t: f64) -> [[f64; 4]; 3] {
+    let r = 1.0 - t;
+    [
+        [
+            r * r * r / 6.0,
+            (3.0 * t * t * t - 6.0 * t * t + 4.0) / 6.0,
+            (3.0 * r * r * r - 6.0 * r * r + 4.0) / 6.0,
+            t * t * t / 6.0,
+        ],
+        [-0.5 * r * r, 1.5 * t * t - 2.0 * t, -1.5 * r * r + 2.0 * r, 0.5 * t * t],
+        [r, 3.0 * t - 2.0, 3.0 * r - 2.0, t],
+    ]
+}
+
+/// The 16 jets at a point of a patch, the control point (i, j) at `4 j + i`.
+pub(crate) fn bicubic(s: f64, t: f64) -> [Jet; 16] {
+    let (a, b) = (cubic(s), cubic(t));
+    std::array::from_fn(|k| {
+        let (i, j) = (k % 4, k / 4);
+        [
+            a[0][i] * b[0][j],
+            a[1][i] * b[0][j],
+            a[0][i] * b[1][j],
+            a[2][i] * b[0][j],
+            a[1][i] * b[1][j],
+            a[0][i] * b[2][j],
+        ]
+    })
+}
+
+/// The points of the tensor rule on the unit square with their weights.
+fn rule(order: usize) -> Vec<([f64; 2], f64)> {
+    let nodes = line_rule(order);
+    let pairs = nodes
+        .iter()
+        .flat_map(|&(t, v)| nodes.iter().map(move |&(s, w)| ([s, t], v * w)));
+    pairs.collect()
+}
+
+/// The Gauss rule on the unit interval.
+pub(crate) fn line_rule(order: usize) -> Vec<(f64, f64)> {
+    gauss_legendre(order)
+        .iter()
+        .map(|node| (node.at, node.weight))
+        .collect()
+}
+
+/// A face without an extraordinary vertex in its grid.
+pub(crate) fn far(order: usize) -> Table {
+    let mut table = Table {
+        columns: (0..16).collect(),
+        weights: Vec::new(),
+        jets: Vec::new(),
+    };
+    for ([s, t], weight) in rule(order) {
+        table.weights.push(weight);
+        table.jets.extend(bicubic(s, t));
+    }
+    table
+}
+
+/// Patches with control points out of others: values by one matrix, derivatives by another.
+fn patches(of: &[([usize; 16], &Matrix<f64>, &Matrix<f64>, f64)], columns: Vec<usize>, order: usize) -> Table {
+    let mut table = Table {
+        columns,
+        weights: Vec::new(),
+        jets: Vec::new(),
+    };
+    let rule = rule(order);
+    for (rows, values, derivatives, factor) in of {
+        for &([s, t], weight) in &rule {
+            table.weights.push(weight * factor);
+            let jets = bicubic(s, t);
+            for &column in &table.columns {
+                let mut sum = [0.0; 6];
+                for (jet, &row) in jets.iter().zip(rows) {
+                    sum[0] += jet[0] * values[(row, column)];
+                    let entry = derivatives[(row, column)];
+                    (1..6).for_each(|k| sum[k] += jet[k] * entry);
+                }
+                table.jets.push(sum);
+            }
+        }
+    }
+    table
+}
+
+/// What the rules around vertices of one valence give.
+#[derive(Debug)]
+pub(crate) struct Around {
+    pub lambda: f64,
+    s: Matrix<f64>,
+    deflated: Matrix<f64>,
+    inner: Matrix<f64>,
+    outer: Matrix<f64>,
+    level: Level<f64>,
+}
+
+fn product(a: &Matrix<f64>, b: &Matrix<f64>) -> Matrix<f64> {
+    let mut entries = vec![vec![0.0; b.columns()]; a.rows()];
+    for (i, row) in entries.iter_mut().enumerate() {
+        for (k, &weight) in a.row(i).iter().enumerate().filter(|(_, w)| **w != 0.0) {
+            row.iter_mut()
+                .zip(b.row(k))
+                .for_each(|(sum, entry)| *sum += weight * entry);
+        }
+    }
+    Matrix::from_rows(entries, b.columns())
+}
+
+impl Around {
+    pub fn new(level: &Level<f64>) -> Result<Self, Error> {
+        let from = |rings: usize, to: usize| -> Result<Matrix<f64>, Error> {
+            let net = DenseNet {
+                numbering: numbering(level, rings),
+            };
+            let rows = refine(level, &net, &numbering(level, to).sites())?;
+            Ok(Matrix::from_rows(rows, net.numbering.count()))
+        };
+        let system = LocalSystem::new(level, 2)?;
+        let limit = system.limit_position()?;
+        let lambda = system
+            .spectrum()?
+            .subdominant()
+            .map_or(f64::NAN, |value| value.modulus());
+        let s = local_matrix(level, 2)?;
+        let deflated = Matrix::from_fn(s.rows(), s.columns(), |i, j| s[(i, j)] - limit[j]);
+        Ok(Around {
+            lambda,
+            s,
+            deflated,
+            inner: from(2, 3)?,
+            outer: from(3, 5)?,
+            level: level.clone(),
+        })
+    }
+
+    /// Rows of the fine net of five rings for the patch whose lower corner is (p, q).
+    fn rows(&self, p: i32, q: i32) -> [usize; 16] {
+        self.grid(5, p, q)
+    }
+
+    fn grid(&self, rings: usize, p: i32, q: i32) -> [usize; 16] {
+        let numbering = numbering(&self.level, rings);
+        std::array::from_fn(|k| {
+            let (x, y) = (p - 1 + (k % 4) as i32, q - 1 + (k / 4) as i32);
+            let site = Site::new(self.level.fan(), 0, 2 * x, 2 * y).expect("no patch contains the centre");
+            numbering
+                .index(site)
+                .expect("five rings hold all patches of an annulus")
+        })
+    }
+
+    /// The annuli that leave less than 1e-16 of the area.
+    pub fn depth(&self) -> usize {
+        ((1e-16_f64).ln() / (2.0 * self.lambda.ln())).ceil() as usize
+    }
+
+    /// A face at the centre, in sector 0, over the points of two rings.
+    pub fn irregular(&self, order: usize, depth: usize, scaled: bool) -> Table {
+        let lift = product(&self.outer, &self.inner);
+        let mut power = Matrix::from_fn(self.s.rows(), self.s.rows(), |i, j| f64::from(u8::from(i == j)));
+        let mut deflated = power.clone();
+        let mut annuli = Vec::with_capacity(depth);
+        for _ in 0..depth {
+            annuli.push((product(&lift, &power), product(&lift, &deflated)));
+            power = product(&self.s, &power);
+            deflated = product(&self.deflated, &deflated);
+        }
+        let mut list = Vec::new();
+        for (m, (values, derivatives)) in annuli.iter().enumerate() {
+            let last = scaled && m + 1 == depth;
+            let factor = if last {
+                1.0 / (1.0 - self.lambda * self.lambda)
+            } else {
+                1.0
+            };
+            for (p, q) in (0..4)
+                .flat_map(|q| (0..4).map(move |p| (p, q)))
+                .filter(|(p, q)| *p.max(q) >= 2)
+            {
+                list.push((self.rows(p, q), values, derivatives, factor));
+            }
+        }
+        // deflation subtracts a multiple of the sum of all functions, whose derivatives vanish
+        let used = |column: &usize| {
+            list.iter()
+                .any(|(rows, values, ..)| rows.iter().any(|&r| values[(r, *column)] != 0.0))
+        };
+        let columns = (0..self.s.rows()).filter(used).collect();
+        patches(&list, columns, order)
+    }
+
+    /// A face beside those at the centre, at (1, 0), (1, 1) or (0, 1), over its own 16 points.
+    pub fn near(&self, order: usize, at: [i32; 2]) -> Table {
+        let [x, y] = at;
+        let own = self.grid(3, x, y);
+        let parts = [[0, 0], [1, 0], [0, 1], [1, 1]]
+            .map(|[i, j]| (self.rows(2 * x + i, 2 * y + j), &self.outer, &self.outer, 1.0));
+        let mut table = patches(&parts, own.to_vec(), order);
+        table.columns = (0..16).collect();
+        table
+    }
+}

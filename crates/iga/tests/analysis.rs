@@ -1,0 +1,159 @@
+//! Patch test, reference errors, rates and refused input.
+
+use eigenring_iga::{Ends, Error, Norms, Options, Problem, Study, solution};
+use eigenring_scheme::{Definition, Spec};
+use eigenring_surface::{Mesh, Point3, Rules, shapes};
+
+fn rules(name: &str) -> Rules {
+    Rules::new(Definition::Family(name.parse::<Spec>().expect("a scheme")))
+}
+
+fn options(ends: Ends, gauss: usize) -> Options {
+    Options {
+        ends,
+        gauss,
+        depth: None,
+        scaled: false,
+    }
+}
+
+fn warped(mut mesh: Mesh) -> Mesh {
+    for p in mesh.points_mut() {
+        let (x, y) = (p.x, p.y);
+        *p = Point3::new(x + 0.08 * (2.0 * y + 1.0).sin(), y + 0.08 * (3.0 * x - 0.5).sin(), 0.0);
+    }
+    mesh
+}
+
+fn error(mesh: &Mesh, scheme: &str, name: &str, problem: Problem, level: usize, options: &Options) -> Norms {
+    let rules = rules(scheme);
+    let u = solution::named(name).expect("a solution");
+    let study = Study::new(mesh, &rules).expect("a study");
+    study.level(level, problem, &u, options).expect("an outcome").error
+}
+
+#[test]
+fn linear_functions_are_reproduced() {
+    let schemes = ["catmull-clark", "lambda:lambda=0.39", "lambda:lambda=0.5"];
+    for (n, scheme) in [3, 5, 6, 7, 9]
+        .into_iter()
+        .flat_map(|n| schemes.map(|scheme| (n, scheme)))
+    {
+        for mesh in [shapes::fan(n), warped(shapes::fan(n))] {
+            for ends in [Ends::Open, Ends::Natural] {
+                let e = error(&mesh, scheme, "lin", Problem::Poisson, 1, &options(ends, 4));
+                assert!(
+                    e.l2 <= 1e-12 && e.h1 <= 1e-11 && e.h2 <= 1e-9,
+                    "{scheme}, N = {n}, {ends:?}: {e:?}"
+                );
+            }
+        }
+    }
+    for scheme in schemes {
+        let e = error(
+            &shapes::square3355(),
+            scheme,
+            "lin",
+            Problem::Poisson,
+            0,
+            &options(Ends::Open, 4),
+        );
+        assert!(
+            e.l2 <= 1e-12 && e.h1 <= 1e-11 && e.h2 <= 1e-9,
+            "{scheme}, square: {e:?}"
+        );
+    }
+}
+
+#[test]
+fn errors_are_those_of_the_reference() {
+    let cases: serde_json::Value = serde_json::from_str(include_str!("data/errors.json")).expect("JSON");
+    for case in cases.as_array().expect("cases") {
+        let text = |key: &str| case[key].as_str().expect("text");
+        let mesh = match text("mesh") {
+            "square3355" => shapes::square3355(),
+            fan => shapes::fan(fan[3..].parse().expect("a valence")),
+        };
+        let ends = if text("boundary") == "open" {
+            Ends::Open
+        } else {
+            Ends::Natural
+        };
+        let problem = if text("problem") == "l2" {
+            Problem::L2
+        } else {
+            Problem::Poisson
+        };
+        for level in case["levels"].as_array().expect("levels") {
+            let number = level["level"].as_u64().expect("a level") as usize;
+            for (gauss, tolerance) in [(6, 2e-5), (4, 1e-4)] {
+                let e = error(&mesh, text("scheme"), "exp", problem, number, &options(ends, gauss));
+                for (key, value) in [("L2", e.l2), ("H1", e.h1), ("H2", e.h2)] {
+                    let expected = level[key].as_f64().expect("a number");
+                    let off = (value / expected - 1.0).abs();
+                    assert!(
+                        off <= tolerance,
+                        "{case:?} {key} on {number}: {value}, {gauss} points, off {off:e}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn rates_are_the_predicted_ones() {
+    for scheme in ["catmull-clark", "lambda:lambda=0.5"] {
+        let all = [3, 4].map(|level| {
+            error(
+                &shapes::fan(6),
+                scheme,
+                "exp",
+                Problem::Poisson,
+                level,
+                &options(Ends::Open, 4),
+            )
+        });
+        let study_rules = rules(scheme);
+        let predicted = Study::new(&shapes::fan(6), &study_rules).expect("a study").predicted();
+        let rate = |of: fn(&Norms) -> f64| (of(&all[0]) / of(&all[1])).log2();
+        let observed = [rate(|e| e.l2), rate(|e| e.h1), rate(|e| e.linf), rate(|e| e.h2)];
+        for (observed, predicted) in observed.iter().zip(predicted) {
+            assert!(
+                (observed - predicted).abs() < 0.1,
+                "{scheme}: {observed} for {predicted}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_scaled_tail_stands_for_the_annuli_left_out() {
+    let with = |scaled: bool| {
+        let options = Options {
+            ends: Ends::Open,
+            gauss: 4,
+            depth: Some(16),
+            scaled,
+        };
+        error(&shapes::fan(6), "catmull-clark", "lin", Problem::Poisson, 2, &options).h1
+    };
+    assert!(with(true) <= 1e-12, "{:e}", with(true));
+    assert!((1e-8..1e-7).contains(&with(false)), "{:e}", with(false));
+}
+
+#[test]
+fn what_has_no_space_is_refused() {
+    let cc = rules("catmull-clark");
+    assert!(matches!(Study::new(&shapes::cube(), &cc), Err(Error::NotPlanar { .. })));
+    let dual = rules("doo-sabin");
+    assert!(matches!(Study::new(&shapes::fan(5), &dual), Err(Error::NotBicubic(_))));
+    let mut folded = shapes::fan(5);
+    folded.points_mut().iter_mut().for_each(|p| p.x = -p.x);
+    let study = Study::new(&folded, &cc).expect("a study");
+    let u = solution::named("lin").expect("a solution");
+    let outcome = study.level(0, Problem::L2, &u, &options(Ends::Open, 4));
+    assert!(matches!(outcome, Err(Error::Jacobian { .. })));
+    let outcome = study.level(0, Problem::L2, &u, &options(Ends::Open, 1));
+    assert!(matches!(outcome, Err(Error::Range { .. })));
+}
