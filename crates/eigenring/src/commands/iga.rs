@@ -160,7 +160,7 @@ impl Solve {
         };
         let (mesh, notices) = meshes::read_surface(&self.file)?;
         notices.iter().for_each(|notice| note(notice));
-        let scheme = self.scheme.name()?;
+        let scheme = self.scheme.name()?.into();
         let rules = meshes::rules(&scheme, &mesh, &[], &args::tuner())?;
         let study = Study::new(&mesh, &rules).map_err(refused)?;
         if study.steps > 0 {
@@ -185,7 +185,7 @@ impl Solve {
                 let [l2, h1, linf, h2] = study.predicted();
                 let value = json!({
                     "mesh": self.file.display().to_string(),
-                    "scheme": scheme.to_string(),
+                    "scheme": rules.definition().name(),
                     "problem": name,
                     "solution": self.solution,
                     "boundary": if ends == Ends::Open { "open" } else { "natural" },
