@@ -62,7 +62,7 @@ pub struct Outcome {
     pub seconds: [f64; 3],
 }
 
-/// A point of a face in the plane: position, `J^-1` by rows (d(s,t)/d(x,y)), its determinant times the weight.
+/// A point of a face in the plane: jets of x and y, `J^-1` by rows, its determinant times the weight.
 struct Geometry {
     x: [Jet; 2],
     inverse: [[f64; 2]; 2],
