@@ -95,8 +95,10 @@ pub(crate) fn far(order: usize) -> Table {
     table
 }
 
-/// Patches with control points out of others: values by one matrix, derivatives by another.
-fn patches(of: &[([usize; 16], &Matrix<f64>, &Matrix<f64>, f64)], columns: Vec<usize>, order: usize) -> Table {
+/// A patch: its control points, the matrices of values and of derivatives, a factor of its weights.
+type Patch<'a> = ([usize; 16], &'a Matrix<f64>, &'a Matrix<f64>, f64);
+
+fn patches(of: &[Patch<'_>], columns: Vec<usize>, order: usize) -> Table {
     let mut table = Table {
         columns,
         weights: Vec::new(),
