@@ -5,16 +5,22 @@ use crate::error::Error;
 use crate::output::Output;
 use crate::progress::note;
 use crate::threads::Threads;
+use crate::valences::OptionalValences;
 use clap::{Args, Subcommand, ValueEnum};
+use eigenring_atlas::compare::compare;
 use eigenring_atlas::meshes;
-use eigenring_atlas::table::Format;
+use eigenring_atlas::table::{Format, Table};
 use eigenring_iga::{Ends, Norms, Options, Outcome, Problem, Study, solution};
+use eigenring_scheme::Lattice;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Solve on the basis functions of a subdivision scheme, and measure the errors.
 #[derive(Args, Debug)]
+#[command(
+    after_help = "Examples:\n  eigenring make fan -N 6 -o fan6.obj\n  eigenring iga poisson fan6.obj --scheme lambda:lambda=0.39 --solution exp --levels 4\n  eigenring iga patch-test fan6.obj --scheme catmull-clark --tail scaled\n  eigenring iga rates --scheme catmull-clark -N 3..12"
+)]
 pub struct Arguments {
     #[command(subcommand)]
     problem: Task,
@@ -28,6 +34,19 @@ enum Task {
     L2(Solve),
     /// Poisson's equation with a linear solution, which must be met: exit 1 if it is not
     PatchTest(Solve),
+    /// The rates that the subdominant eigenvalue predicts, by valence
+    Rates(Rates),
+}
+
+/// Which rates are asked for.
+#[derive(Args, Debug)]
+struct Rates {
+    #[command(flatten)]
+    scheme: OneScheme,
+    #[command(flatten)]
+    valences: OptionalValences,
+    #[command(flatten)]
+    output: Output,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -83,6 +102,7 @@ impl Arguments {
                 ..solve
             }
             .run("patch-test", Problem::Poisson),
+            Task::Rates(rates) => rates.run(),
         }
     }
 }
@@ -130,6 +150,37 @@ fn refused(error: eigenring_iga::Error) -> Error {
             "planar meshes of quads with boundary, under a bicubic one-ring scheme".to_owned(),
         ),
     ))
+}
+
+/// Valences by default.
+const USUAL: std::ops::RangeInclusive<usize> = 3..=12;
+
+impl Rates {
+    /// A row for each valence: lambda, and the rates in the open space.
+    fn run(self) -> Result<ExitCode, Error> {
+        let format = self.output.format()?;
+        let scheme = self.scheme.name()?;
+        let valences = match (&self.valences.valences, scheme.only_valence()?) {
+            (Some(valences), _) => valences.closed()?.to_vec(),
+            (None, Some(only)) => vec![only],
+            (None, None) => USUAL.collect(),
+        };
+        let tuner = args::tuner();
+        let mut table = Table::new(["scheme", "valence", "lambda", "L2", "H1", "Linf", "H2"]);
+        for valence in valences {
+            let rules = scheme.scheme(valence, &tuner)?;
+            if rules.lattice() != Lattice::Vertex || rules.degree() != Some(3) {
+                return Err(refused(eigenring_iga::Error::NotBicubic(rules.name().to_owned())));
+            }
+            let row = compare(std::slice::from_ref(&scheme), &[valence], &tuner)?.remove(0);
+            let rates = row.lambda.map(eigenring_iga::predicted);
+            let mut cells = vec![row.scheme.as_str().into(), valence.into(), row.lambda.into()];
+            cells.extend((0..4).map(|norm| rates.map(|rates| rates[norm]).into()));
+            table.push(cells);
+        }
+        self.output.emit(&table.render(format))?;
+        Ok(ExitCode::SUCCESS)
+    }
 }
 
 impl Solve {
@@ -182,7 +233,13 @@ impl Solve {
             .collect();
         let text = match format {
             Format::Json => {
-                let [l2, h1, linf, h2] = study.predicted();
+                // extrapolated beyond the boundary, no solution is better than its second derivatives there
+                let most = match ends {
+                    Ends::Open => [4.0, 3.0, 4.0, 2.0],
+                    Ends::Natural => [2.5, 1.5, 2.0, 0.5],
+                };
+                let predicted = study.predicted();
+                let [l2, h1, linf, h2]: [f64; 4] = std::array::from_fn(|norm| predicted[norm].min(most[norm]));
                 let value = json!({
                     "mesh": self.file.display().to_string(),
                     "scheme": rules.definition().name(),
