@@ -144,12 +144,11 @@ fn level(number: usize, outcome: &Outcome, before: Option<&Outcome>) -> Value {
 }
 
 fn refused(error: eigenring_iga::Error) -> Error {
-    Error::Atlas(eigenring_atlas::Error::refused(
-        error.to_string(),
-        eigenring_atlas::Accepted::Are(
-            "planar meshes of quads with boundary, under a bicubic one-ring scheme".to_owned(),
-        ),
-    ))
+    const USUAL: &str = "planar meshes of quads with boundary, under a bicubic one-ring scheme";
+    let text = error.to_string();
+    let (message, accepted) = text.split_once("; accepted are ").unwrap_or((&text, USUAL));
+    let accepted = eigenring_atlas::Accepted::Are(accepted.to_owned());
+    Error::Atlas(eigenring_atlas::Error::refused(message.to_owned(), accepted))
 }
 
 /// Valences by default.
