@@ -97,7 +97,8 @@ mod tests {
             (6, Ends::Clamped),
             (5, Ends::Closed),
         ] {
-            let mut curve = Curve::new(order, 0.5, ends, &[[0.0]; 8]).unwrap();
+            let u0 = if ends == Ends::Clamped { 1.0 } else { 0.5 };
+            let mut curve = Curve::new(order, u0, ends, &[[0.0]; 8]).unwrap();
             let axis = curve.axis().clone();
             for level in 0..5 {
                 assert_eq!(curve.points().len() as f64, count_after(&axis, level));
