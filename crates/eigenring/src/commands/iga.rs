@@ -154,6 +154,9 @@ fn refused(error: eigenring_iga::Error) -> Error {
 /// Valences by default.
 const USUAL: std::ops::RangeInclusive<usize> = 3..=12;
 
+/// The objective E of the regular rule is 7e-23, of rounding alone; what is below this is regular. Empirical.
+const REGULAR: f64 = 1e-16;
+
 impl Rates {
     /// A row for each valence: lambda, and the rates in the open space.
     fn run(self) -> Result<ExitCode, Error> {
@@ -172,7 +175,11 @@ impl Rates {
                 return Err(refused(eigenring_iga::Error::NotBicubic(rules.name().to_owned())));
             }
             let row = compare(std::slice::from_ref(&scheme), &[valence], &tuner)?.remove(0);
-            let rates = row.lambda.map(eigenring_iga::predicted);
+            // without an extraordinary vertex the spline's own rates hold: E of the regular rule is zero
+            let regular = valence == 4 && row.total.is_some_and(|total| total < REGULAR);
+            let rates = row
+                .lambda
+                .map(|lambda| eigenring_iga::predicted(if regular { 0.0 } else { lambda }));
             let mut cells = vec![row.scheme.as_str().into(), valence.into(), row.lambda.into()];
             cells.extend((0..4).map(|norm| rates.map(|rates| rates[norm]).into()));
             table.push(cells);
