@@ -34,6 +34,9 @@ pub enum Error {
     /// From knot intervals.
     #[error(transparent)]
     NonUniform(#[from] eigenring_nonuniform::Error),
+    /// From finite elements.
+    #[error(transparent)]
+    Iga(#[from] eigenring_iga::Error),
     /// From drawing.
     #[error(transparent)]
     Figure(#[from] eigenring_figure::Error),
@@ -162,6 +165,7 @@ impl Error {
             | Error::Study(_)
             | Error::Surface(_)
             | Error::NonUniform(_)
+            | Error::Iga(_)
             | Error::Figure(_)
             | Error::Certify(_) => accepted_in(&self.to_string()),
         }

@@ -51,6 +51,7 @@
 //! **Errors** are one enum, [`Error`]: what is wrong, with the offending value, and what is accepted in its
 //! place.
 
+pub mod analysis;
 pub mod cache;
 pub mod certificates;
 pub mod compare;

@@ -148,24 +148,27 @@ pub fn write_csv(
     Ok(())
 }
 
+/// The columns of vertices.
+pub(crate) const VERTEX_COLUMNS: [&str; 14] = [
+    "vertex",
+    "fan",
+    "faces",
+    "rule",
+    "x",
+    "y",
+    "z",
+    "nx",
+    "ny",
+    "nz",
+    "kind",
+    "gauss_min",
+    "gauss_max",
+    "exponent",
+];
+
 /// The columns of vertices: a row for each fan of faces between sharp edges.
 pub fn vertex_table(surface: &Surface<'_>, fans: &[VertexFan]) -> Table {
-    let mut table = Table::new([
-        "vertex",
-        "fan",
-        "faces",
-        "rule",
-        "x",
-        "y",
-        "z",
-        "nx",
-        "ny",
-        "nz",
-        "kind",
-        "gauss_min",
-        "gauss_max",
-        "exponent",
-    ]);
+    let mut table = Table::new(VERTEX_COLUMNS);
     let mut next = fans.iter().peekable();
     for vertex in 0..surface.control().points().len() as u32 {
         let mut found = false;
@@ -197,7 +200,7 @@ pub fn vertex_table(surface: &Surface<'_>, fans: &[VertexFan]) -> Table {
         if !found {
             // unused vertices keep their number
             let mut row: Vec<Cell> = vec![(vertex as usize).into()];
-            row.resize(14, Cell::Empty);
+            row.resize(VERTEX_COLUMNS.len(), Cell::Empty);
             table.push(row);
         }
     }

@@ -1,9 +1,8 @@
 //! Names of schemes on meshes, where a name may say in how many smoothing steps creases act:
 //! `tension:order=8,u0=1,cs=1`.
 
-use crate::schemes::{SchemeName, split};
+use crate::schemes::{SchemeName, specs};
 use eigenring_scheme::Error;
-use std::path::Path;
 use std::str::FromStr;
 
 /// A scheme on a mesh.
@@ -91,10 +90,8 @@ impl FromStr for OnMeshList {
     type Err = Error;
 
     fn from_str(text: &str) -> Result<Self, Error> {
-        let alone = text.strip_prefix("file:").is_some_and(|path| Path::new(path).is_file());
-        let specs = if alone { vec![text.to_owned()] } else { split(text) };
-        let schemes = specs.iter().map(|spec| spec.parse());
-        schemes.collect::<Result<_, _>>().map(OnMeshList)
+        let schemes = specs(text).iter().map(|spec| spec.parse()).collect::<Result<_, _>>();
+        schemes.map(OnMeshList)
     }
 }
 

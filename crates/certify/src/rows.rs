@@ -78,11 +78,12 @@ fn row_sums_of(
         let worst = wrong.max_by(|a, b| a.1.mag().total_cmp(&b.1.mag()));
         if let Some((site, by)) = worst {
             let text = format!(
-                "the weights of refined point ({}, {}) of sector {}{place} sum to 1 + {}",
+                "the weights of refined point ({}, {}) of sector {}{place} sum to 1 {} {}",
                 site.x,
                 site.y,
                 site.sector,
-                digits(by.mid())
+                if by.mid() < 0.0 { '-' } else { '+' },
+                digits(by.mid().abs())
             );
             return Ok(Check::refuted(NAME, Witness::new(text).with("defect", by)).enclosing(by));
         }

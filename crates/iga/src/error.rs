@@ -13,10 +13,12 @@ pub enum Error {
     #[error(transparent)]
     Spectral(#[from] eigenring_spectral::Error),
     /// A scheme that is no bicubic one-ring scheme.
-    #[error("analysis needs a bicubic scheme around vertices with one-ring rules, and '{0}' is none")]
+    #[error(
+        "'{0}' has no finite elements here: accepted are stationary bicubic schemes around vertices with one-ring rules, and the regular rule at valence 4"
+    )]
     NotBicubic(String),
     /// A face that is no quad.
-    #[error("face {face} has {corners} corners and analysis needs quads: one step of 'eigenring subdivide' makes them")]
+    #[error("face {face} has {corners} corners: accepted are quads, which one step of 'eigenring subdivide' makes")]
     NotQuad {
         /// Its number.
         face: usize,
@@ -24,7 +26,7 @@ pub enum Error {
         corners: usize,
     },
     /// A vertex off the plane z = 0, or not finite.
-    #[error("vertex {vertex} is at {position:?}: the mesh of a planar problem is finite with z = 0")]
+    #[error("vertex {vertex} is at {position:?}: accepted are finite points with z = 0")]
     NotPlanar {
         /// Its number.
         vertex: usize,
@@ -32,7 +34,7 @@ pub enum Error {
         position: [f64; 3],
     },
     /// A boundary vertex of more than two faces.
-    #[error("boundary vertex {vertex} has {faces} faces, and there one or two are accepted")]
+    #[error("boundary vertex {vertex} has {faces} faces: accepted are one or two")]
     Reentrant {
         /// Its number.
         vertex: usize,
@@ -40,24 +42,42 @@ pub enum Error {
         faces: usize,
     },
     /// A closed mesh has no boundary for Dirichlet data.
-    #[error("the mesh has no boundary, and planar problems need one")]
+    #[error("the mesh has no boundary: accepted are planar meshes with one")]
     Closed,
     /// The mesh stays too narrow.
-    #[error("the mesh has extraordinary vertices or boundaries too close to each other after {steps} steps")]
+    #[error(
+        "extraordinary vertices or boundaries are too close to each other after {steps} steps: accepted are meshes with two faces between them"
+    )]
     TooClose {
         /// Steps that were tried.
         steps: usize,
     },
     /// The map is not regular.
-    #[error("the Jacobian is {value:e} at a point of face {face}, and must be positive")]
+    #[error(
+        "the Jacobian is {value:e} at a point of face {face}: accepted are positive ones, of faces that are not folded and run counter-clockwise"
+    )]
     Jacobian {
         /// The face of the refined mesh.
         face: usize,
         /// Its value in the parameters of the patch.
         value: f64,
     },
+    /// A subdominant eigenvalue that makes no annuli that shrink, or too slowly.
+    #[error(
+        "lambda is {lambda} at valence {valence}: accepted is above 0 and at most {most:.3}, with which {annuli} annuli suffice"
+    )]
+    Lambda {
+        /// The valence.
+        valence: usize,
+        /// The modulus of the subdominant eigenvalue.
+        lambda: f64,
+        /// The largest accepted one.
+        most: f64,
+        /// How many annuli there may be.
+        annuli: usize,
+    },
     /// An integer parameter out of its range.
-    #[error("{name} is {value}; accepted are {accepted}")]
+    #[error("{name} is {value}: accepted are {accepted}")]
     Range {
         /// Its name.
         name: &'static str,
@@ -67,7 +87,9 @@ pub enum Error {
         accepted: &'static str,
     },
     /// The factorisation failed.
-    #[error("the matrix of {unknowns} unknowns is not positive definite in floating point")]
+    #[error(
+        "the matrix of {unknowns} unknowns is not positive definite in floating point: accepted are meshes and schemes of which it is"
+    )]
     NotDefinite {
         /// Its size.
         unknowns: usize,

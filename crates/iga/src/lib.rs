@@ -13,10 +13,20 @@ pub use error::Error;
 pub use problem::{Norms, Options, Outcome, Problem};
 pub use space::Ends;
 
-use eigenring_scheme::{Definition, Spec};
+use eigenring_scheme::{Definition, Lattice, Scheme, Spec};
 use eigenring_surface::{Boundary, Mesh, Refiner, Rules};
 use solution::Solution;
 use space::Space;
+
+/// Whether a scheme around a vertex has tables here: bicubic with one-ring rules, the same at every level.
+///
+/// # Errors
+/// Those of the reach of its stencils.
+pub fn accepts(scheme: &Scheme<f64>) -> Result<bool, Error> {
+    let one_ring = scheme.limit().special_rings()?.is_none_or(|rings| rings <= 1);
+    let bicubic = scheme.lattice() == Lattice::Vertex && scheme.degree() == Some(3);
+    Ok(bicubic && one_ring && scheme.leading().is_empty())
+}
 
 /// A mesh whose levels carry spaces.
 #[derive(Debug)]
@@ -40,8 +50,7 @@ impl<'a> Study<'a> {
     /// What is no such mesh, and a scheme that is not bicubic with one-ring rules.
     pub fn new(mesh: &Mesh, rules: &'a Rules) -> Result<Self, Error> {
         let definition = rules.definition();
-        let dual = matches!(definition, Definition::Family(spec) if *spec == Spec::DooSabin);
-        if dual || rules.degree()? != Some(3) {
+        if rules.degree()? != Some(3) || rules.lists_four() {
             return Err(Error::NotBicubic(definition.name()));
         }
         let tuned = !matches!(definition, Definition::Family(Spec::CatmullClark));
@@ -94,7 +103,7 @@ impl<'a> Study<'a> {
                 accepted: "2 to 10",
             });
         }
-        if let Some(value) = options.depth.filter(|depth| !(1..=200).contains(depth)) {
+        if let Some(value) = options.depth.filter(|depth| !(1..=MOST_ANNULI).contains(depth)) {
             return Err(Error::Range {
                 name: "depth",
                 value,
@@ -120,15 +129,30 @@ impl<'a> Study<'a> {
         &self.mesh
     }
 
-    /// The rates that the worst of the valences predicts, see [`predicted`].
-    pub fn predicted(&self) -> [f64; 4] {
-        predicted(
-            self.lambdas
-                .iter()
-                .fold(0.0, |most, (_, lambda)| f64::max(most, *lambda)),
-        )
+    /// About how many bytes a level takes: entries of the elements twice, before and after they are numbered,
+    /// and the factor, which has some 22 n log2 n entries (empirical, meshes of 10^4 to 10^6 unknowns).
+    pub fn bytes(&self, level: usize) -> f64 {
+        let faces = self.mesh.face_count() as f64 * 4.0_f64.powi(level as i32);
+        faces * (2.0 * 24.0 * 136.0 + 8.0 * 22.0 * faces.log2().max(1.0))
+    }
+
+    /// The rates that the worst of the valences predicts, see [`predicted`]. A natural solution is not better
+    /// than 5/2, 3/2, 2, 1/2: its second derivatives across the boundary vanish there, and those of u do not.
+    pub fn predicted(&self, ends: Ends) -> [f64; 4] {
+        let lambdas = self.lambdas.iter().map(|(_, lambda)| *lambda);
+        let rates = predicted(lambdas.fold(0.0, f64::max));
+        match ends {
+            Ends::Open => rates,
+            Ends::Natural => {
+                let most = [2.5, 1.5, 2.0, 0.5];
+                std::array::from_fn(|norm| f64::min(rates[norm], most[norm]))
+            }
+        }
     }
 }
+
+/// The most annuli of an extraordinary vertex: what they leave out is `lambda^400` of the area.
+pub(crate) const MOST_ANNULI: usize = 200;
 
 fn refined(mesh: &Mesh, rules: &Rules, levels: usize) -> Result<Mesh, Error> {
     let mut refiner = Refiner::new(rules);

@@ -207,10 +207,11 @@ fn solve(system: &System, given: &BTreeMap<usize, f64>, used: &[bool]) -> Result
     if unknowns == 0 {
         return Ok(values);
     }
-    let broken = |_| Error::NotDefinite { unknowns };
     let matrix = SparseColMat::try_new_from_triplets(unknowns, unknowns, &entries)
         .map_err(|_| Error::NotDefinite { unknowns })?;
-    let factor = matrix.sp_cholesky(faer::Side::Lower).map_err(|_| broken(()))?;
+    let factor = matrix
+        .sp_cholesky(faer::Side::Lower)
+        .map_err(|_| Error::NotDefinite { unknowns })?;
     let right = faer::Mat::from_fn(unknowns, 1, |i, _| load[i]);
     let result = factor.solve(&right);
     free.iter().enumerate().for_each(|(k, &i)| values[i] = result[(k, 0)]);

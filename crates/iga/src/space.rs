@@ -10,6 +10,7 @@ use crate::Error;
 use crate::tables::{Around, Table, far};
 use eigenring_scheme::{Fan, Lattice, Numbering};
 use eigenring_surface::{Mesh, Point3, Rules, Topology};
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, HashMap};
 
 /// The solution beyond the boundary.
@@ -113,10 +114,16 @@ fn across(ends: Ends) -> [[f64; 3]; 3] {
     }
 }
 
-fn transform(count: usize, layers: &[(u32, Corner)], ends: Ends) -> Vec<Vec<(u32, f64)>> {
+/// Coefficients in unknowns; `None` where two corners of the domain are neighbours.
+fn transform(count: usize, layers: &[(u32, Corner)], ends: Ends) -> Option<Vec<Vec<(u32, f64)>>> {
     let mut rows: Vec<Vec<(u32, f64)>> = (0..count as u32).map(|i| vec![(i, 1.0)]).collect();
     let line = across(ends);
     let kept = |row: Vec<(u32, f64)>| row.into_iter().filter(|(_, w)| *w != 0.0).collect();
+    let single = |(v, corner): &(u32, Corner)| match corner {
+        Corner::One(_, ghost) => Some((*v, *ghost)),
+        Corner::Two(..) => None,
+    };
+    let ghosts: HashMap<u32, u32> = layers.iter().filter_map(single).collect();
     for (v, corner) in layers {
         match corner {
             Corner::One(inside, ghost) => {
@@ -126,16 +133,8 @@ fn transform(count: usize, layers: &[(u32, Corner)], ends: Ends) -> Vec<Vec<(u32
                 }
             }
             Corner::Two([a, b, diagonal], [west, both, south]) => {
-                // ids[i][j] is the point (i - 1, j - 1); its neighbours' ghosts are found by their rows
-                let ghost = |of: u32| {
-                    layers.iter().find_map(|(w, c)| match c {
-                        Corner::One(_, ghost) if *w == of => Some(*ghost),
-                        _ => None,
-                    })
-                };
-                let (Some(under), Some(beside)) = (ghost(*a), ghost(*b)) else {
-                    continue;
-                };
+                // ids[i][j] is the point (i - 1, j - 1)
+                let (under, beside) = (*ghosts.get(a)?, *ghosts.get(b)?);
                 let ids = [[*both, *west, beside], [*south, *v, *b], [under, *a, *diagonal]];
                 for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                     let terms = (0..9).map(|k| (ids[k / 3][k % 3], line[i][k / 3] * line[j][k % 3]));
@@ -144,7 +143,7 @@ fn transform(count: usize, layers: &[(u32, Corner)], ends: Ends) -> Vec<Vec<(u32
             }
         }
     }
-    rows
+    Some(rows)
 }
 
 /// The 16 points around the face of a half-edge, which runs from (0, 0) to (1, 0). All corners are regular.
@@ -241,8 +240,12 @@ impl Space {
                     kind: Kind::Irregular(n),
                     points,
                 });
-                if let std::collections::btree_map::Entry::Vacant(entry) = around.entry(n) {
-                    entry.insert(Around::new(rules.inner(None, n)?.limit())?);
+                if let Entry::Vacant(entry) = around.entry(n) {
+                    let scheme = rules.inner(None, n)?;
+                    if !crate::accepts(&scheme)? {
+                        return Err(Error::NotBicubic(scheme.name().to_owned()));
+                    }
+                    entry.insert(Around::new(n, scheme.limit())?);
                 }
                 continue;
             }
@@ -275,13 +278,16 @@ impl Space {
             .filter(|&half| coarse.twin(half).is_none())
             .map(|half| grid(&topology, half))
             .collect();
-        let Some(edges) = edges else { return Ok(None) };
+        let transform = transform(full.points().len(), &layers, ends);
+        let (Some(edges), Some(transform)) = (edges, transform) else {
+            return Ok(None);
+        };
         Ok(Some(Space {
             positions: full.points().iter().map(|p| [p.x, p.y]).collect(),
             cells,
             inner,
             boundary,
-            transform: transform(full.points().len(), &layers, ends),
+            transform,
             edges,
             around,
         }))

@@ -6,10 +6,14 @@
 //! stencil l, and their differences would lose `lambda^-m` of their digits for each order. A patch has
 //! parameters of its own, so there are no powers of two; Jacobians may become as small as `lambda^2m`.
 
-use crate::Error;
+use crate::{Error, MOST_ANNULI};
 use eigenring_scheme::{DenseNet, Level, Site, refine};
 use eigenring_spectral::{LocalSystem, Matrix, local_matrix, numbering};
 use eigenring_spline::quadrature::gauss_legendre;
+use eigenring_spline::uniform;
+
+/// The part of the area that annuli may leave out: rounding.
+const REST: f64 = 1e-16;
 
 /// Value, s, t, ss, st, tt.
 pub(crate) type Jet = [f64; 6];
@@ -33,24 +37,9 @@ impl Table {
     }
 }
 
-/// Uniform cubic B-splines on one interval: values, first and second derivatives.
-fn cubic(t: f64) -> [[f64; 4]; 3] {
-    let r = 1.0 - t;
-    [
-        [
-            r * r * r / 6.0,
-            (3.0 * t * t * t - 6.0 * t * t + 4.0) / 6.0,
-            (3.0 * r * r * r - 6.0 * r * r + 4.0) / 6.0,
-            t * t * t / 6.0,
-        ],
-        [-0.5 * r * r, 1.5 * t * t - 2.0 * t, -1.5 * r * r + 2.0 * r, 0.5 * t * t],
-        [r, 3.0 * t - 2.0, 3.0 * r - 2.0, t],
-    ]
-}
-
 /// The 16 jets at a point of a patch, the control point (i, j) at `4 j + i`.
 pub(crate) fn bicubic(s: f64, t: f64) -> [Jet; 16] {
-    let (a, b) = (cubic(s), cubic(t));
+    let (a, b) = (uniform::basis(3, s), uniform::basis(3, t));
     std::array::from_fn(|k| {
         let (i, j) = (k % 4, k / 4);
         [
@@ -147,7 +136,8 @@ fn product(a: &Matrix<f64>, b: &Matrix<f64>) -> Matrix<f64> {
 }
 
 impl Around {
-    pub fn new(level: &Level<f64>) -> Result<Self, Error> {
+    /// The tables' matrices, of a scheme that [`accepts`](crate::accepts) accepts.
+    pub fn new(valence: usize, level: &Level<f64>) -> Result<Self, Error> {
         let from = |rings: usize, to: usize| -> Result<Matrix<f64>, Error> {
             let net = DenseNet {
                 numbering: numbering(level, rings),
@@ -161,6 +151,15 @@ impl Around {
             .spectrum()?
             .subdominant()
             .map_or(f64::NAN, |value| value.modulus());
+        let most = REST.powf(0.5 / MOST_ANNULI as f64);
+        if !(0.0 < lambda && lambda <= most) {
+            return Err(Error::Lambda {
+                valence,
+                lambda,
+                most,
+                annuli: MOST_ANNULI,
+            });
+        }
         let s = local_matrix(level, 2)?;
         let deflated = Matrix::from_fn(s.rows(), s.columns(), |i, j| s[(i, j)] - limit[j]);
         Ok(Around {
@@ -189,9 +188,9 @@ impl Around {
         })
     }
 
-    /// The annuli that leave less than 1e-16 of the area.
+    /// The annuli that leave less than [`REST`] of the area.
     pub fn depth(&self) -> usize {
-        ((1e-16_f64).ln() / (2.0 * self.lambda.ln())).ceil() as usize
+        (REST.ln() / (2.0 * self.lambda.ln())).ceil() as usize
     }
 
     /// A face at the centre, in sector 0, over the points of two rings.

@@ -221,7 +221,7 @@ impl EigenPolyhedron {
             .min_by(|a, b| beyond(a).total_cmp(&beyond(b)))
     }
 
-    /// Sectors and spokes with a weight outside of [0, 1], in words.
+    /// Sectors and spokes with a weight outside of [0, 1], in words, and the weights of the first four.
     fn outside(&self) -> Vec<String> {
         let bad = |weights: &[f64; 2]| weights.iter().any(|w| !(-ROUNDING..=1.0 + ROUNDING).contains(w));
         let named = |what: &'static str, list: &[[f64; 2]]| -> Vec<String> {
@@ -230,7 +230,13 @@ impl EigenPolyhedron {
                 .map(|(i, [a, b])| format!("{what} {i} ({a:.4}, {b:.4})"))
                 .collect()
         };
-        [named("sector", &self.alpha), named("spoke", &self.beta)].concat()
+        let mut all = [named("sector", &self.alpha), named("spoke", &self.beta)].concat();
+        let more = all.len().saturating_sub(4);
+        if more > 0 {
+            all.truncate(4);
+            all.push(format!("{more} more"));
+        }
+        all
     }
 
     pub(crate) fn refusal(&self, at: String) -> Error {

@@ -23,9 +23,11 @@
 //! ```
 //!
 //! and s, t > 0, since C is a convex combination of the E_i. On the three patches of a sector all Bernstein
-//! coefficients of the three J are non-negative, and those of one of them positive. So are those of `x_u,
-//! y_u` and of `x_v, z_v`, so that the Jacobian of (y + s x, z + t x) is a P-matrix, and the map of a sector
-//! injective (Gale and Nikaido 1965); it stays in the cone of v and w.
+//! coefficients of the three J are non-negative, and those of one of them positive. Those of `x_u, y_u` and
+//! of `x_v, z_v` are non-negative, and no two of a pair zero together, so that the Jacobian of
+//! (y + s x, z + t x) is a P-matrix: on the three patches, hence on their images by 1/2, 1/4, .., which with
+//! them make up the rectangle of a sector. On rectangles that makes a map injective (Gale and Nikaido 1965);
+//! it stays in the cone of v and w.
 
 use eigenring_scheme::families::SplitFace;
 use eigenring_scheme::{Error, Exact, Scalar};
@@ -36,27 +38,39 @@ fn ratio(p: i64, q: i64) -> BigRational {
     BigRational::new(p.into(), q.into())
 }
 
-/// n alpha_i, exactly.
-///
-/// # Errors
-/// Those of [`SplitFace::new`], which has the same denominators.
-pub fn scaled_alpha(d: &[f64]) -> Result<Vec<BigRational>, Error> {
-    SplitFace::<f64>::new(d)?;
-    let n = d.len();
-    let d = |i: usize| BigRational::from_float(d[i % n]).unwrap_or_else(BigRational::zero);
-    let part = |own: usize, other: usize| d(own) / (d(own) + d(other));
-    Ok((0..n).map(|i| part(i, i + 2) * part(i + 1, i + n - 1)).collect())
+/// n alpha_i, exactly: quotients of doubles.
+fn scaled_alpha(d: &[f64]) -> Result<Vec<BigRational>, Error> {
+    let face = SplitFace::<Exact>::new(d)?;
+    let rational = face.alpha.iter().map(Exact::as_rational);
+    // arithmetic of rational numbers ends in a rational one, or in none where it is too long
+    Ok(rational.map(|alpha| alpha.unwrap_or_else(BigRational::zero)).collect())
 }
 
 /// Lemma 1: the lesser of min n alpha and 1 - max n alpha, by which all eigenvalues after 1, 1/2, 1/2 stay
 /// below 1/2 in modulus; exactly. At n = 3, where there are none, 1/2 at most.
 ///
 /// # Errors
-/// As [`scaled_alpha`].
+/// Those of [`SplitFace::new`].
 pub fn gap_bound(d: &[f64]) -> Result<BigRational, Error> {
     let alpha = scaled_alpha(d)?;
     let gaps = alpha.into_iter().map(|alpha| (BigRational::one() - &alpha).min(alpha));
     Ok(gaps.fold(ratio(1, 2), BigRational::min))
+}
+
+/// Whether all eigenvalues after 1, 1/2, 1/2 are proven to be below 1/2 in modulus: mu is a mean of the
+/// n alpha over a vector that is orthogonal to the Fourier modes 0 and +-1. It is 0 or 1 only if that vector
+/// lives where n alpha is 0, or where it is 1, and on three places or fewer no vector but 0 is orthogonal to
+/// the three.
+///
+/// # Errors
+/// Those of [`SplitFace::new`].
+pub fn is_strict(d: &[f64]) -> Result<bool, Error> {
+    let alpha = scaled_alpha(d)?;
+    let within = alpha
+        .iter()
+        .all(|alpha| !alpha.is_negative() && *alpha <= BigRational::one());
+    let count = |end: BigRational| alpha.iter().filter(|alpha| **alpha == end).count();
+    Ok(within && count(BigRational::zero()) <= 3 && count(BigRational::one()) <= 3)
 }
 
 /// Whether the rows of Q_n sum to 1, exactly.
@@ -246,11 +260,6 @@ impl Bernstein {
                 .collect(),
         )
     }
-
-    fn least(&self) -> BigRational {
-        let all = self.0.iter().flatten();
-        all.min().cloned().unwrap_or_else(BigRational::zero)
-    }
 }
 
 fn binomial(n: usize, k: usize) -> i64 {
@@ -264,8 +273,9 @@ pub struct Patch {
     pub cell: [usize; 2],
     /// The Bernstein coefficients of J_vw, J_pw and J_vp, 36 of each.
     pub jacobians: [Vec<BigRational>; 3],
-    /// The least coefficient of x_u, y_u, x_v and z_v.
-    pub growth: BigRational,
+    /// Whether no coefficient of x_u, y_u, x_v and z_v is negative, and of two that belong together, of x_u
+    /// and y_u or of x_v and z_v, one is positive.
+    pub grows: bool,
 }
 
 impl Patch {
@@ -283,7 +293,7 @@ impl Patch {
 
     /// Whether the Jacobian of (y + s x, z + t x) is proven to be a P-matrix.
     pub fn is_injective(&self) -> bool {
-        self.is_regular() && !self.growth.is_negative()
+        self.is_regular() && self.grows
     }
 }
 
@@ -309,11 +319,14 @@ fn patch(points: &[[Parts; 5]; 5], cell: [usize; 2]) -> Patch {
     };
     let [x, y, z] = [part(0), part(1), part(2)];
     let jacobian = |a: &Bernstein, b: &Bernstein| a.by_u().times(&b.by_v()).minus(&a.by_v().times(&b.by_u()));
-    let growth = [x.by_u(), y.by_u(), x.by_v(), z.by_v()].map(|derivative| derivative.least());
+    let grow = |a: &Bernstein, b: &Bernstein| {
+        let mut pairs = a.0.iter().flatten().zip(b.0.iter().flatten());
+        pairs.all(|(a, b)| !a.is_negative() && !b.is_negative() && (a + b).is_positive())
+    };
     Patch {
         cell,
         jacobians: [jacobian(&y, &z), jacobian(&x, &z), jacobian(&y, &x)].map(|j| j.0.into_iter().flatten().collect()),
-        growth: growth.into_iter().min().unwrap_or_else(BigRational::zero),
+        grows: grow(&x.by_u(), &y.by_u()) && grow(&x.by_v(), &z.by_v()),
     }
 }
 
@@ -340,6 +353,45 @@ mod tests {
             assert_eq!(points[j + 1][k + 1], [p, v, w].map(|c| ratio(c, q)), "({j}, {k})");
             assert_eq!(points[k + 1][j + 1], [p, w, v].map(|c| ratio(c, q)), "({k}, {j})");
         }
+    }
+
+    /// The univariate rules of equal intervals beside a double knot are those by knot intervals.
+    #[test]
+    fn rows_are_those_of_the_rules_by_intervals() {
+        use eigenring_spline::intervals::{doubled, edge, limit, vertex};
+        let close = |row: &[BigRational], first: usize, expected: &[f64]| {
+            let mut all = vec![0.0; row.len()];
+            all[first..first + expected.len()].copy_from_slice(expected);
+            let found = row.iter().map(|w| <f64 as Scalar>::rational(w));
+            assert!(found.zip(&all).all(|(a, b)| (a - b).abs() < 1e-15), "{row:?} {all:?}");
+        };
+        let rule = rule();
+        // with the interval 0 before it the point itself is halved, and the rest is the line's
+        let [_, own, beyond] = vertex::<f64>([5.0, 0.0, 1.0, 1.0]);
+        let [_, shared] = edge::<f64>([5.0, 0.0, 1.0]);
+        close(&rule[0], 0, &[0.5, own - 0.5 * shared, beyond]);
+        close(&rule[1], 1, &edge::<f64>([0.0, 1.0, 1.0]));
+        close(&rule[2], 1, &vertex::<f64>([0.0, 1.0, 1.0, 1.0]));
+        close(&rule[3], 2, &edge::<f64>([1.0; 3]));
+        let [first, second] = [bezier(0), bezier(1)];
+        close(&first[1], 1, &[1.0]);
+        let [far, near] = doubled::<f64>([1.0, 1.0, 0.0]);
+        close(&first[2], 1, &[near, far]);
+        close(&first[3], 1, &limit::<f64>([0.0, 1.0, 1.0, 1.0]));
+        close(&second[1], 2, &doubled::<f64>([1.0; 3]));
+        let [far, near] = doubled::<f64>([1.0; 3]);
+        close(&second[2], 2, &[near, far]);
+        close(&second[3], 2, &limit::<f64>([1.0; 4]));
+        assert_eq!(first[3], second[0]);
+    }
+
+    #[test]
+    fn strictness_is_counted() {
+        assert!(is_strict(&[1.0, 2.0, 1.5, 0.8, 1.2]).unwrap());
+        assert!(is_strict(&[0.0, 1.0, 1.0, 1.0, 1.0, 1.0]).unwrap());
+        assert!(is_strict(&[0.0, 0.0, 1.0, 1.0, 1.0, 1.0]).unwrap());
+        // two zero spokes opposite each other: a further eigenvalue 1/2
+        assert!(!is_strict(&[0.0, 1.0, 1.0, 0.0, 1.0, 1.0]).unwrap());
     }
 
     #[test]

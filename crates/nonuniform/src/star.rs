@@ -108,11 +108,7 @@ impl Scheme {
                 accepted: "closed fans around vertices, with knot intervals and without creases".to_owned(),
             }));
         }
-        let mut intervals: Vec<Vec<f64>> = corner
-            .spokes()
-            .iter()
-            .map(|spoke| vec![spoke.interval, spoke.next])
-            .collect();
+        let mut intervals = corner.intervals();
         let mut leading = Vec::new();
         let uniform = |list: &Vec<f64>| list.iter().all(|d| *d == list[0]);
         while leading.len() < LEADING && (leading.is_empty() || !intervals.iter().all(uniform)) {

@@ -259,6 +259,12 @@ impl Corner {
         self.spokes.iter().any(|spoke| spoke.sharp)
     }
 
+    /// The knot intervals of each spoke: of its first edge, and of all further ones.
+    pub fn intervals(&self) -> Vec<Vec<f64>> {
+        let spokes = self.spokes.iter();
+        spokes.map(|spoke| vec![spoke.interval, spoke.next]).collect()
+    }
+
     /// Whether all knot intervals are alike.
     pub fn is_uniform(&self) -> bool {
         let first = self.spokes[0].interval;

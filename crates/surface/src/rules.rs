@@ -156,7 +156,8 @@ impl Rules {
         valence != 4 || self.by_vertex.contains_key(&vertex) || self.lists_four()
     }
 
-    pub(crate) fn lists_four(&self) -> bool {
+    /// Whether vertices of valence 4 have rules of their own: a file lists them, and not the regular ones.
+    pub fn lists_four(&self) -> bool {
         match self.definition() {
             Definition::File(file) => file.valences().any(|valence| valence == 4) && !self.four_is_regular(),
             Definition::Family(_) => false,

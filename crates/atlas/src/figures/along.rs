@@ -6,6 +6,7 @@
 //! subdominant eigenvalue, and nothing else is above it (Ma, Wang and Ma 2023, section 3).
 
 use super::grid::Grid;
+use super::spectra::{COLUMNS, cells};
 use super::subject::chosen;
 use super::{Drawing, FigureEntry, Inputs};
 use crate::error::Error;
@@ -35,33 +36,16 @@ pub fn build(entry: &FigureEntry, inputs: &Inputs<'_>, sweep: &Sweep) -> Result<
     let grid = Grid::new(rows, columns, inputs.width, 0.0, NARROWEST);
     let title = format!("Eigenvalues along {}", sweep.parameter);
     let mut figure = Figure::new(inputs.width, grid.height(HEIGHT) + 10.0, title);
-    let mut table = Table::new([
-        "scheme",
-        "valence",
-        sweep.parameter.as_str(),
-        "fourier",
-        "re",
-        "im",
-        "modulus",
-        "multiplicity",
-        "geometric",
-    ]);
+    let names = ["scheme", "valence", sweep.parameter.as_str()];
+    let mut table = Table::new(names.into_iter().chain(COLUMNS));
     for (column, &valence) in inputs.valences.iter().enumerate() {
         for (row, (subject, scheme)) in chosen(inputs, valence)?.iter().zip(inputs.schemes).enumerate() {
             let found = spectra(scheme, sweep, valence, [None; 2], inputs.tuner.progress)?;
             for (value, analysis) in &found {
                 for e in &analysis.spectrum.eigenvalues {
-                    table.push(vec![
-                        subject.name.as_str().into(),
-                        valence.into(),
-                        value.value().into(),
-                        e.fourier.into(),
-                        e.value.re.into(),
-                        e.value.im.into(),
-                        e.modulus().into(),
-                        e.multiplicity.into(),
-                        e.geometric.into(),
-                    ]);
+                    let mut row = vec![subject.name.as_str().into(), valence.into(), value.value().into()];
+                    row.extend(cells(e));
+                    table.push(row);
                 }
             }
             let (at_row, at_column) = grid.place(row, column);

@@ -11,7 +11,7 @@ use super::subject::{Subject, chosen};
 use super::{Drawing, FigureEntry, Inputs, along};
 use crate::error::Error;
 use crate::spectrum::Analysis;
-use crate::table::Table;
+use crate::table::{Cell, Table};
 use eigenring_figure::{Anchor, Axis, Chart, Colour, Dash, Figure, Marker, Panel, Side, Stroke, Style, decades_of};
 use eigenring_scheme::Corner;
 use eigenring_spectral::{Eigenvalue, Spectrum};
@@ -70,6 +70,21 @@ fn kind(eigenvalue: &Eigenvalue) -> Kind {
     }
 }
 
+/// What the data say of an eigenvalue.
+pub(super) const COLUMNS: [&str; 6] = ["fourier", "re", "im", "modulus", "multiplicity", "geometric"];
+
+/// The cells of [`COLUMNS`].
+pub(super) fn cells(e: &Eigenvalue) -> [Cell; 6] {
+    [
+        e.fourier.into(),
+        e.value.re.into(),
+        e.value.im.into(),
+        e.modulus().into(),
+        e.multiplicity.into(),
+        e.geometric.into(),
+    ]
+}
+
 fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
     if let Some(sweep) = inputs.sweep {
         return along::build(&ENTRY, inputs, sweep);
@@ -83,16 +98,7 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
     );
     let mut figure = Figure::new(inputs.width, grid.height(HEIGHT) + 10.0, "Eigenvalues by Fourier index");
     figure = figure.heading(format!("moduli above {SMALLEST}"));
-    let mut table = Table::new([
-        "scheme",
-        "valence",
-        "fourier",
-        "re",
-        "im",
-        "modulus",
-        "multiplicity",
-        "geometric",
-    ]);
+    let mut table = Table::new(["scheme", "valence"].into_iter().chain(COLUMNS));
     for (column, &valence) in inputs.valences.iter().enumerate() {
         for (row, (subject, argument)) in chosen(inputs, valence)?.iter().zip(inputs.schemes).enumerate() {
             let extended = argument.extended(&Corner::closed(argument.centre()?, valence)?)?;
@@ -101,16 +107,9 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
                 return Err(eigenring_spectral::Error::NotSymmetric.into());
             }
             for e in &spectrum.eigenvalues {
-                table.push(vec![
-                    subject.name.as_str().into(),
-                    valence.into(),
-                    e.fourier.into(),
-                    e.value.re.into(),
-                    e.value.im.into(),
-                    e.modulus().into(),
-                    e.multiplicity.into(),
-                    e.geometric.into(),
-                ]);
+                let mut row = vec![subject.name.as_str().into(), valence.into()];
+                row.extend(cells(e));
+                table.push(row);
             }
             let (at_row, at_column) = grid.place(row, column);
             let chart = chart(subject, &spectrum);

@@ -4,7 +4,7 @@
 //! that is no quad. Derivatives are by s and t. Curvature is not computed.
 
 use crate::error::Error;
-use crate::limits::number;
+use crate::limits::{VERTEX_COLUMNS, number};
 use crate::table::{Cell, Table};
 use eigenring_nonuniform::{Sample, Surface};
 use eigenring_surface::limit::Place;
@@ -141,22 +141,7 @@ fn kind(sample: &Sample) -> &'static str {
 /// # Errors
 /// Those of [`Surface`].
 pub fn vertex_table(surface: &Surface, mesh: &Mesh) -> Result<Table, Error> {
-    let mut table = Table::new([
-        "vertex",
-        "fan",
-        "faces",
-        "rule",
-        "x",
-        "y",
-        "z",
-        "nx",
-        "ny",
-        "nz",
-        "kind",
-        "gauss_min",
-        "gauss_max",
-        "exponent",
-    ]);
+    let mut table = Table::new(VERTEX_COLUMNS);
     let plain = mesh.without_unused();
     let topology = Topology::unchecked(&plain);
     let unused = mesh.unused();
@@ -198,7 +183,7 @@ pub fn vertex_table(surface: &Surface, mesh: &Mesh) -> Result<Table, Error> {
                 row.push(kind(&sample).into());
             }
         }
-        row.resize(14, Cell::Empty);
+        row.resize(VERTEX_COLUMNS.len(), Cell::Empty);
         table.push(row);
     }
     Ok(table)

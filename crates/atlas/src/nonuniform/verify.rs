@@ -161,6 +161,10 @@ fn hnuss(spokes: &Spokes, rule: FirstLevel) -> Result<Vec<Check>, Error> {
     let n = d.len();
     let nonuniform = |error: eigenring_scheme::Error| eigenring_nonuniform::Error::from(error);
     let ngon = NGon::new(d)?;
+    if rule.needs_polyhedron() {
+        // without it there is no first level, and no surface to speak of
+        EigenPolyhedron::new(d)?;
+    }
     let proven = |holds: bool| if holds { Status::Proven } else { Status::Undecided };
     let sums = lemmas::rows_sum_to_one(d).map_err(nonuniform)?;
     let polygon = lemmas::polygon_is_an_eigenvector(d).map_err(nonuniform)?;
@@ -180,8 +184,7 @@ fn hnuss(spokes: &Spokes, rule: FirstLevel) -> Result<Vec<Check>, Error> {
         .fold(0.0, |m: f64, x| m.max(x.abs()));
     checks.push(Check {
         name: "subdominant",
-        // with zero spokes the bound is 0; three vanishing alpha carry no vector orthogonal to three modes
-        status: Status::Proven,
+        status: proven(lemmas::is_strict(d).map_err(nonuniform)?),
         margin: positive.then(|| below(&bound)),
         enclosure: Some([0.5, 0.5]),
         reached: match positive {
@@ -228,8 +231,10 @@ fn hnuss(spokes: &Spokes, rule: FirstLevel) -> Result<Vec<Check>, Error> {
             "Lemma 3: the Jacobian in the directions of the lines is a P-matrix (Gale and Nikaido){needs}"
         ),
     });
-    // lines and sectors add 1/4 and less; where lambda_4 is 1/4 itself, it has Jordan blocks with them
-    let bounded = n < 5 || fourth < 0.25 - 1e-9;
+    // Lines and sectors add 1/4 and less; where lambda_4 is 1/4 itself, it has Jordan blocks with them. What
+    // is closer to it than 1e-9, far beyond rounding, counts as equal. All arguments are for positive
+    // intervals.
+    let bounded = positive && (n < 5 || fourth < 0.25 - 1e-9);
     checks.push(Check {
         name: "bounded_curvature_matrix",
         status: if bounded { Status::Numerical } else { Status::Undecided },
@@ -237,10 +242,11 @@ fn hnuss(spokes: &Spokes, rule: FirstLevel) -> Result<Vec<Check>, Error> {
         enclosure: Some([fourth, fourth]),
         reached: match bounded {
             true => "the matrix alone: no eigenvalue of Q_n after 1/2 reaches 1/4, or only a semisimple one".to_owned(),
-            false => "the matrix alone: |lambda_4| exceeds 1/4, or is 1/4 with Jordan blocks".to_owned(),
+            false if positive => "the matrix alone: |lambda_4| exceeds 1/4, or is 1/4 with Jordan blocks".to_owned(),
+            false => "of zero intervals nothing is known".to_owned(),
         },
     });
-    let coplanar = rule != FirstLevel::Simple;
+    let coplanar = rule.needs_polyhedron() && positive;
     checks.push(Check {
         name: "bounded_curvature",
         status: if bounded || coplanar { Status::Numerical } else { Status::Undecided },
@@ -249,6 +255,7 @@ fn hnuss(spokes: &Spokes, rule: FirstLevel) -> Result<Vec<Check>, Error> {
         reached: match (bounded, coplanar) {
             (true, _) => "by the eigenvalues of the matrix".to_owned(),
             (_, true) => "the first level makes the corners of the n-gon coplanar, so that the height has no part in the modes of Q_n, and 1/4 leads it".to_owned(),
+            _ if !positive => "of zero intervals nothing is known".to_owned(),
             _ => "the simple rule makes corners that are not coplanar: curvature grows like (4 lambda_4)^m, or like m for equal intervals".to_owned(),
         },
     });

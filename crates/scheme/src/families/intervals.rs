@@ -33,11 +33,7 @@ pub fn with_intervals<S: Scalar>(name: &str, corner: &Corner) -> Result<Scheme<S
         _ => return Err(refuse(accepted)),
     };
     let splits_zeros = corner.centre() == Centre::Vertex;
-    let mut intervals: Vec<Vec<f64>> = corner
-        .spokes()
-        .iter()
-        .map(|spoke| vec![spoke.interval, spoke.next])
-        .collect();
+    let mut intervals = corner.intervals();
     let mut leading = Vec::new();
     while leading.len() < LEADING && intervals.iter().any(|list| halved(list, splits_zeros) != *list) {
         leading.push(level(&intervals)?);

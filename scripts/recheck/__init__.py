@@ -1,0 +1,1 @@
+"""A second checker of stored certificates, on balls and exact numbers; see recheck_certificates.py."""
