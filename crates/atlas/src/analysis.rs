@@ -55,8 +55,8 @@ pub struct Request {
 /// The most levels: the last has 16384 elements for each face.
 const MOST_LEVELS: usize = 8;
 
-/// What the errors of a linear solution must not exceed: L2, H1, H2. Rounding leaves some 1e-15 of a solution,
-/// and each derivative divides by the size of elements.
+/// What the errors of a linear solution must not exceed: L2, H1, H2. Rounding leaves some 1e-15 of it, and
+/// each derivative divides by the size of elements.
 const PATCH_TEST: [f64; 3] = [1e-12, 1e-11, 1e-9];
 
 /// What was found.
