@@ -362,7 +362,7 @@ mod tests {
         let close = |row: &[BigRational], first: usize, expected: &[f64]| {
             let mut all = vec![0.0; row.len()];
             all[first..first + expected.len()].copy_from_slice(expected);
-            let found = row.iter().map(|w| <f64 as Scalar>::rational(w));
+            let found = row.iter().map(<f64 as Scalar>::rational);
             assert!(found.zip(&all).all(|(a, b)| (a - b).abs() < 1e-15), "{row:?} {all:?}");
         };
         let rule = rule();
