@@ -9,6 +9,7 @@ use crate::schemes::{SchemeName, Tuner, stem};
 use crate::table::Table;
 use eigenring_certify::parameter::{ParameterCertificate, recheck_parameter_text};
 use eigenring_certify::range::{RangeCertificate, StencilCurve, recheck_range_text};
+use eigenring_certify::valences::{Family, ValencesCertificate, recheck_valences_text};
 use eigenring_certify::{Certificate, Input, Requirement, Statement, Status, recheck_text};
 use eigenring_scheme::lambda::LambdaTable;
 use eigenring_scheme::user::Reading;
@@ -134,6 +135,24 @@ pub fn curve(scheme: Option<&SchemeName>, valence: usize) -> Result<StencilCurve
         Some(_) => Err(Error::Usage {
             message: "a range of lambda is for the lambda-scheme with s by its rule".to_owned(),
             accepted: "lambda:optimal (its splines) or lambda:lambda=L,f2=X,f3=Y (constant f2, f3)".to_owned(),
+        }),
+    }
+}
+
+/// The scheme of which all valences can be certified at once.
+///
+/// # Errors
+/// [`Error::Usage`] for another scheme.
+pub fn family(scheme: &SchemeName) -> Result<Family, Error> {
+    match scheme {
+        SchemeName::Spec(Spec::CatmullClark) => Ok(Family::CatmullClark),
+        SchemeName::Spec(Spec::DooSabin) => Ok(Family::DooSabin),
+        _ => Err(Error::Usage {
+            message: "there is no proof for all valences of this scheme".to_owned(),
+            accepted: format!(
+                "{}; or valences with an end, such as 3..20",
+                Family::ALL.map(Family::name).join(" and ")
+            ),
         }),
     }
 }
@@ -305,6 +324,11 @@ pub fn range_table(ranges: &[Ranged], certificates: &[RangeCertificate]) -> Tabl
     table
 }
 
+/// What a certificate of all valences is of, in words.
+pub(crate) fn every(certificate: &ValencesCertificate) -> String {
+    format!("{}, every N >= {}", certificate.scheme.name(), certificate.from)
+}
+
 /// What checking one file again has shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Confirmation {
@@ -335,9 +359,11 @@ pub fn confirm(path: &Path, most: usize) -> Result<Confirmation, Error> {
 /// # Errors
 /// As [`confirm`].
 pub fn confirm_text(path: &Path, text: &str, most: usize) -> Result<Confirmation, Error> {
-    // a certificate of a range has tiles, one of a scheme an input, and one of a range of a parameter both
+    // a certificate of a range has tiles, one of a scheme an input, one of a range of a parameter both, and one
+    // of all valences tiles and a first valence
     let value = serde_json::from_str::<serde_json::Value>(text).unwrap_or_default();
     let is_range = value.get("tiles").is_some();
+    let is_open = is_range && value.get("from").is_some();
     let is_parameter = is_range && value.get("input").is_some();
     let mut remarks = Vec::new();
     let check_valence = |valence: usize| match valence {
@@ -347,7 +373,12 @@ pub fn confirm_text(path: &Path, text: &str, most: usize) -> Result<Confirmation
             Accepted::Is(format!("3 to {most}")),
         )),
     };
-    let (what, valence, intact) = if is_parameter {
+    let (what, valence, intact) = if is_open {
+        let (certificate, found) = recheck_valences_text(text)?;
+        let different = found.differences.iter();
+        remarks.extend(different.map(|statement| format!("{statement}: not as claimed")));
+        (every(&certificate), certificate.from, found.intact)
+    } else if is_parameter {
         check_valence(ParameterCertificate::from_json(text)?.valence)?;
         let (certificate, found) = recheck_parameter_text(text)?;
         if !found.covered {

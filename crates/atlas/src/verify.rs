@@ -1,9 +1,10 @@
 //! Certificates for people and programs.
 
-use crate::certificates::Confirmation;
+use crate::certificates::{Confirmation, every};
 use crate::table::{Format, Table, WIDTH, pretty, short};
 use eigenring_certify::parameter::{ParameterCertificate, Stretch};
 use eigenring_certify::range::{RangeCertificate, Segment};
+use eigenring_certify::valences::ValencesCertificate;
 use eigenring_certify::{Certificate, Check, Interval, Requirement, Statement, Status};
 use eigenring_scheme::Number;
 use serde_json::{Value, json};
@@ -89,8 +90,12 @@ fn certificate_json(certificate: &Certificate, requirement: Requirement) -> Valu
 }
 
 pub(crate) fn certificate_table(certificate: &Certificate) -> Table {
+    check_table(&certificate.checks)
+}
+
+fn check_table(checks: &[Check]) -> Table {
     let mut table = Table::new(["check", "status", "margin", "value", "remark"]);
-    for check in &certificate.checks {
+    for check in checks {
         let remark = check.witness.as_ref().map(|witness| witness.text.clone());
         table.push(vec![
             check.name.name().into(),
@@ -115,6 +120,84 @@ fn certificate_text(certificate: &Certificate, requirement: Requirement) -> Stri
         certificate_table(certificate).fitted(WIDTH),
         requirement.name()
     )
+}
+
+/// Certificates of single valences and one of all from a valence on, with one verdict on all of them: in JSON
+/// one object; CSV and LaTeX begin with a column of valences, in which `5..` stands for 5 and all larger ones.
+pub fn all_valences(
+    singles: &[Certificate],
+    rest: &ValencesCertificate,
+    requirement: Requirement,
+    format: Format,
+) -> (Status, String) {
+    let statuses = singles
+        .iter()
+        .map(|certificate| &certificate.checks)
+        .chain([&rest.checks]);
+    let status = statuses.fold(Status::Proven, |status, checks| {
+        status.and(requirement.verdict(checks).1)
+    });
+    let open = format!("{}..", rest.from);
+    // listed before the open range, the valences need not follow each other
+    let mut next = rest.from;
+    let before = singles.iter().rev().filter(|certificate| {
+        let follows = certificate.valence + 1 == next;
+        next -= usize::from(follows);
+        follows
+    });
+    let connected = before.count() == singles.len();
+    let text = match format {
+        Format::Json => {
+            let checks: Vec<Value> = rest.checks.iter().map(check_json).collect();
+            let (holds, of_rest) = requirement.verdict(&rest.checks);
+            pretty(&json!({
+                "scheme": rest.scheme.name(),
+                "require": requirement.name(),
+                "status": status,
+                "holds": status == Status::Proven,
+                "single": singles.iter().map(|one| certificate_json(one, requirement)).collect::<Vec<_>>(),
+                "all": {
+                    "from": rest.from, "tiles": rest.tiles.len(), "status": of_rest, "holds": holds, "checks": checks,
+                },
+            }))
+        }
+        Format::Text => {
+            let single: String = singles
+                .iter()
+                .map(|one| certificate_text(one, requirement) + "\n")
+                .collect();
+            let valences = match (singles.first(), connected) {
+                (Some(first), true) => format!("every N >= {}", first.valence),
+                (Some(_), false) => {
+                    let listed: Vec<String> = singles.iter().map(|one| one.valence.to_string()).collect();
+                    format!("N = {} and every N >= {}", listed.join(", "), rest.from)
+                }
+                (None, _) => format!("every N >= {}", rest.from),
+            };
+            format!(
+                "{single}{} ({} tiles)\n\n{}\n{} is {status} for {valences}\n",
+                every(rest),
+                rest.tiles.len(),
+                check_table(&rest.checks).fitted(WIDTH),
+                requirement.name(),
+            )
+        }
+        _ => {
+            let mut whole = Table::default();
+            let single = singles
+                .iter()
+                .map(|one| (one.valence.to_string(), certificate_table(one)));
+            for (position, (valence, table)) in single.chain([(open, check_table(&rest.checks))]).enumerate() {
+                let table = table.beside("valence", valence);
+                match position {
+                    0 => whole = table,
+                    _ => whole.append(table),
+                }
+            }
+            whole.render(format)
+        }
+    };
+    (status, text)
 }
 
 /// The statements of a range certificate.

@@ -58,6 +58,16 @@ pub enum Error {
         /// Its ends, as text.
         ends: [String; 2],
     },
+    /// All valences from one on that has, or comes before one that has, other blocks.
+    #[error("all valences from {from} on: accepted is {least} to {most}")]
+    Valences {
+        /// The first.
+        from: usize,
+        /// Smallest accepted one.
+        least: usize,
+        /// Largest accepted one.
+        most: usize,
+    },
     /// A requirement that is not known.
     #[error("requirement '{name}' is not known: accepted are {accepted}")]
     Requirement {

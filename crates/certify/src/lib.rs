@@ -3,7 +3,7 @@
 //! [`certify`] takes an exact scheme ([`Input`]) at a valence and says of each of a list of statements
 //! ([`Statement`]) whether it is proven, refuted, open, or only computed. [`recheck()`] proves a stored
 //! [`Certificate`] again; [`range`] does both for a continuous range of lambda, [`parameter`] for one of a
-//! parameter of a scheme file.
+//! parameter of a scheme file, [`valences`] for all valences at once.
 //!
 //! **Search and proof are apart.** [`find`] and [`map::find`] look for evidence in doubles: approximate
 //! eigenvectors, subdivisions, places. The checks take scheme and evidence and use nothing but [`Interval`]s,
@@ -45,6 +45,7 @@ mod recheck;
 mod rows;
 pub mod spectral;
 mod status;
+pub mod valences;
 
 pub use certificate::{Balanced, CERTIFICATE_VERSION, Certificate, Evidence, certify, check};
 pub use error::Error;

@@ -40,6 +40,28 @@ impl Valences {
     }
 }
 
+impl Valences {
+    /// The first of a range without an end.
+    pub fn from(&self) -> Option<usize> {
+        self.from
+    }
+
+    /// The valences below `first` that are listed, or lie in the range without an end.
+    pub fn below(&self, first: usize) -> Vec<usize> {
+        let in_range = self.from.map_or(first, |from| from.min(first))..first;
+        let mut all: Vec<usize> = self
+            .listed
+            .iter()
+            .copied()
+            .filter(|&valence| valence < first)
+            .chain(in_range)
+            .collect();
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+}
+
 impl FromStr for Valences {
     type Err = String;
 

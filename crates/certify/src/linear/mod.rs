@@ -14,10 +14,12 @@
 //!   Stein (1952).
 
 mod eigenpair;
+mod eliminate;
 mod solve;
 mod stein;
 
 pub use eigenpair::{Eigenpair, eigenpair, lift, quotient};
+pub(crate) use eliminate::eliminate;
 pub use solve::solve;
 pub use stein::radius_below;
 

@@ -39,6 +39,7 @@ mod winding;
 pub use corner::{Corner, corner};
 pub use gauss::{CurvatureEvidence, CurvatureRange, Heights, Sign, curvature};
 pub use regular::{JacobianEvidence, Regularity, regular};
+pub(crate) use regular::{cut, hull};
 pub use subdivision::{MAX_DEPTH, Subdivision};
 pub use winding::{Winding, WindingEvidence, winding};
 
@@ -226,7 +227,7 @@ impl<S: Coefficient> PlaneNet<S> {
     }
 
     /// The coordinates of a patch in Bernstein form.
-    fn coordinates(&self, patch: PatchIndex, conversion: &[Vec<S>]) -> [Polynomial<S>; 2] {
+    pub(crate) fn coordinates(&self, patch: PatchIndex, conversion: &[Vec<S>]) -> [Polynomial<S>; 2] {
         [&self.x, &self.y].map(|values| self.patches.polynomial(values, patch, conversion))
     }
 

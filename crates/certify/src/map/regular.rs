@@ -144,12 +144,12 @@ fn fold<S: Enclose>(net: &PlaneNet<S>, places: [Place; 2]) -> Regularity {
     }
 }
 
-pub(super) fn cut<S: Enclose>(part: &Polynomial<S>) -> Vec<Polynomial<S>> {
+pub(crate) fn cut<S: Enclose>(part: &Polynomial<S>) -> Vec<Polynomial<S>> {
     part.quarters().into()
 }
 
 /// An interval that holds all values of a polynomial with these coefficients.
-pub(super) fn hull<S: Enclose>(coefficients: &[S]) -> Interval {
+pub(crate) fn hull<S: Enclose>(coefficients: &[S]) -> Interval {
     let enclosures = coefficients.iter().map(Enclose::enclosure);
     enclosures.reduce(Interval::hull).unwrap_or(Interval::ENTIRE)
 }

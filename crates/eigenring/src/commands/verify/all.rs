@@ -11,6 +11,7 @@ use eigenring_atlas::progress::each;
 use eigenring_atlas::table::Format;
 use eigenring_certify::certify;
 use eigenring_certify::range::{Limits, RangeCertificate, prove_range};
+use eigenring_certify::valences::{Family, LEAST, prove as prove_all};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -27,7 +28,14 @@ pub fn make(valences: &[usize], out: &Path, format: Format) -> Result<ExitCode, 
         certify(single.input.clone(), single.valence)
     })?;
     let ranged = each(&Terminal, "ranges of lambda", &ranges, |range| prove(range, &resume))?;
+    let all = each(&Terminal, "all valences", &Family::ALL, |&family| {
+        prove_all(family, LEAST)
+    })?;
     let mut written = Written::default();
+    for certificate in &all {
+        let file = format!("all-valences/{}.json", certificate.scheme.name());
+        written.write(folder.join(file), certificate.to_line()?.as_bytes())?;
+    }
     for (single, certificate) in singles.iter().zip(&singly) {
         written.write(folder.join(&single.file), certificate.to_line()?.as_bytes())?;
     }

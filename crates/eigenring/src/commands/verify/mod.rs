@@ -11,13 +11,14 @@ use crate::progress::{Terminal, note};
 use crate::threads::Threads;
 use crate::valences::{self, MAX_VALENCE, Valences};
 use clap::{ArgGroup, Args, ValueEnum};
-use eigenring_atlas::certificates::{beside, confirm, curve, ranged};
+use eigenring_atlas::certificates::{beside, confirm, curve, family, input, ranged};
 use eigenring_atlas::nonuniform::verify as nonuniform;
 use eigenring_atlas::progress::each;
 use eigenring_atlas::schemes::SchemeName;
 use eigenring_atlas::verify;
 use eigenring_certify::parameter::{self, ParameterCertificate};
 use eigenring_certify::range::{Limits, RangeCertificate, prove_range};
+use eigenring_certify::valences as all_valences;
 use eigenring_certify::{Requirement, Status, certify};
 use eigenring_nonuniform::{Scheme as NonUniform, Spokes};
 use eigenring_scheme::user::Reading;
@@ -25,7 +26,7 @@ use eigenring_scheme::{Number, Shape};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-const EXAMPLES: &str = "Examples:\n  eigenring verify --scheme catmull-clark -N 5\n  eigenring verify --scheme lambda:optimal -N 3,6..8 --require strict\n  eigenring verify --lambda-range 0.4..0.6 -N 6 --require strict\n  eigenring verify --scheme catmull-clark -N 3 --format json\n  eigenring verify --scheme catmull-clark -N 7 -o N7.json   store the certificate, to be checked again:\n  eigenring verify --recheck N7.json\n  eigenring verify --all                                       rebuilds results/certificates";
+const EXAMPLES: &str = "Examples:\n  eigenring verify --scheme catmull-clark -N 5\n  eigenring verify --scheme lambda:optimal -N 3,6..8 --require strict\n  eigenring verify --lambda-range 0.4..0.6 -N 6 --require strict\n  eigenring verify --scheme catmull-clark -N 3 --format json\n  eigenring verify --scheme catmull-clark -N 7 -o N7.json   store the certificate, to be checked again:\n  eigenring verify --recheck N7.json\n  eigenring verify --scheme catmull-clark --valences 3..       every valence, by one proof\n  eigenring verify --all                                       rebuilds results/certificates";
 
 /// Prove that a scheme is C1, or has bounded curvature, at a valence or over a range of lambda.
 ///
@@ -46,8 +47,9 @@ pub struct Arguments {
     scheme: Option<SchemeName>,
     #[command(flatten)]
     settings: SchemeSettings,
-    /// Valences: numbers and ranges, such as 5 or 3,5..8, with a certificate for each; may be left out where
-    /// --fan, --knots or a scheme file for one valence fix it. With --all: those of the lambda-scheme, by
+    /// Valences: numbers and ranges, such as 5 or 3,5..8, with a certificate for each; 3.. is every valence,
+    /// of catmull-clark and doo-sabin. May be left out where --fan, --knots or a scheme file for one valence
+    /// fix it. With --all: those of the lambda-scheme, by
     /// default 3..20
     #[arg(
         short = 'N',
@@ -164,6 +166,12 @@ impl Arguments {
             let valences = self.valences.as_ref().map_or(Ok(usual.as_slice()), Valences::closed)?;
             return all::make(valences, &out, self.format.format());
         }
+        if let (Some(valences), Some(scheme), None) = (&self.valences, &self.scheme, &self.parameter)
+            && let (Some(from), None) = (valences.from(), self.lambda_range)
+        {
+            self.corner.refuse("for all valences at once")?;
+            return self.at_all_valences(scheme, valences, from);
+        }
         let valences = self.valences.as_ref().map(Valences::closed).transpose()?;
         if let Some(range) = &self.parameter {
             self.corner.refuse("over a range of a parameter")?;
@@ -176,6 +184,50 @@ impl Arguments {
             }
             None => self.at_corners(valences),
         }
+    }
+
+    /// One certificate of all valences from one on, and certificates of those that come before.
+    fn at_all_valences(&self, scheme: &SchemeName, valences: &Valences, from: usize) -> Result<ExitCode, Error> {
+        let scheme = &self.settings.apply(scheme.clone())?;
+        let family = family(scheme)?;
+        self.refuse_exact(scheme)?;
+        let first = from.max(all_valences::LEAST);
+        let inputs = valences.below(first).into_iter().map(|valence| {
+            let input = input(scheme, valence, Reading::Balanced, &args::tuner())?;
+            Ok((input, valence))
+        });
+        let inputs = inputs.collect::<Result<Vec<_>, Error>>()?;
+        let singles = each(&Terminal, "certificates", &inputs, |(input, valence)| {
+            certify(input.clone(), *valence)
+        })?;
+        let rest = all_valences::prove(family, first)?;
+        if let Some(path) = &self.output {
+            let mut written = vec![(format!("N{first:03}-and-more.json"), rest.to_json()?)];
+            for single in &singles {
+                written.push((format!("N{:03}.json", single.valence), single.to_json()?));
+            }
+            for (name, text) in &written {
+                let path = if singles.is_empty() {
+                    path.clone()
+                } else {
+                    path.join(name)
+                };
+                files::save(&path, text.as_bytes())?;
+            }
+        }
+        let (status, text) = verify::all_valences(&singles, &rest, self.require.into(), self.format.format());
+        files::emit(None, text.as_bytes())?;
+        Ok(exit(status == Status::Proven))
+    }
+
+    fn refuse_exact(&self, scheme: &SchemeName) -> Result<(), Error> {
+        if self.exact && !matches!(scheme, SchemeName::File(_)) {
+            return Err(Error::usage(
+                "--exact has no meaning for a scheme that is built in, whose weights are exact",
+                "--exact with --scheme file:SCHEME.toml",
+            ));
+        }
+        Ok(())
     }
 
     /// Certificates of a scheme around the corners that are asked for, one for each valence.
@@ -193,12 +245,7 @@ impl Arguments {
                 .collect(),
             None => self.corner.shape(None, scheme).map(|corner| vec![corner]),
         }?;
-        if self.exact && !matches!(scheme, SchemeName::File(_)) {
-            return Err(Error::usage(
-                "--exact has no meaning for a scheme that is built in, whose weights are exact",
-                "--exact with --scheme file:SCHEME.toml",
-            ));
-        }
+        self.refuse_exact(scheme)?;
         let reading = if self.exact { Reading::Exact } else { Reading::Balanced };
         let tuner = args::tuner();
         let mut inputs = Vec::new();
