@@ -5,7 +5,8 @@ Written from docs/certificates.md alone; shares no code with the program. Number
 at --precision bits, rational numbers and polynomials where something is an equality. The evidence inside a
 certificate is not read: each status is derived here from the scheme and the valence, and compared.
 
-Covered: Catmull-Clark, members of the lambda-scheme, and one-ring scheme files with numbers as weights; the
+Covered: Catmull-Clark, members of the lambda-scheme, and one-ring scheme files with numbers as weights; Catmull-Clark
+and Doo-Sabin at all valences from one on; the
 statements row_sums, hull, dominant, subdominant, regular, injective, bounded_curvature, non_degenerate, strict
 and corner, with the numbers beside them. Not covered, and counted as such: gauss, other schemes, and
 certificates of ranges, of which --samples members are checked one by one, which is no proof of a range.
@@ -31,6 +32,7 @@ from recheck.certificates import BadInput, check
 from recheck.exact import IDENTITIES
 from recheck.faults import self_test
 from recheck.ranges import check_ranges
+from recheck.valences import check as check_valences
 
 
 def files_of(paths):
@@ -72,10 +74,13 @@ def main():
     for path in files_of(arguments.paths or [results / "certificates"]):
         try:
             document = json.loads(path.read_text())
-            if "checks" not in document or "input" not in document:
+            if "from" in document:
+                differences, count, reason = check_valences(document)
+            elif "checks" not in document or "input" not in document:
                 left["a range of parameters"] = left.get("a range of parameters", 0) + 1
                 continue
-            differences, count, reason = check(document)
+            else:
+                differences, count, reason = check(document)
         except (KeyError, TypeError, ValueError) as error:
             raise BadInput(f"{path}: {error}: accepted is a certificate of 'eigenring verify -o'") from error
         if reason:

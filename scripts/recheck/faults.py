@@ -2,10 +2,13 @@
 
 from math import inf, nextafter
 
+from flint import fmpq
+
 from .certificates import check
 from .exact import fraction
 from .schemes import OneRing
 from .statements import PROVEN, REFUTED, UNDECIDED, statements
+from .valences import SAMPLED, CatmullClark, DooSabin, prove, sampled
 
 
 def self_test():
@@ -44,6 +47,22 @@ def self_test():
         found = statements(rules)[name].status
         good &= found == expected
         print(f"{'ok ' if found == expected else 'BAD'}  {what}: {name} is {found}, {expected} expected")
+    # all valences: each weight off by a thousandth, and what is proven of all at twenty of them, one by one
+    off = fmpq(1, 1000)
+    for name, weight in CatmullClark().weights.items():
+        proven = prove(CatmullClark(**{name: weight + off}))[0]
+        good &= not proven
+        print(f"{'BAD' if proven else 'ok '}  all valences, {name} off by 1e-3: {'proven' if proven else 'not proven'}")
+    for what, scheme in (("Catmull-Clark", CatmullClark()), ("Doo-Sabin", DooSabin())):
+        proven, _, count = prove(scheme)
+        good &= proven
+        print(f"{'ok ' if proven else 'BAD'}  all valences, {what}: {'C1' if proven else 'not proven'} on {count} intervals")
+    slow = prove(DooSabin(first=fmpq(2, 5)))[0]
+    good &= not slow
+    print(f"{'BAD' if slow else 'ok '}  all valences, an outer eigenvalue above lambda: {'proven' if slow else 'not proven'}")
+    apart = [valence for valence in SAMPLED if not sampled(valence)]
+    good &= not apart
+    print(f"{'BAD' if apart else 'ok '}  all valences, Catmull-Clark at {len(SAMPLED)} valences up to {SAMPLED[-1]}: {apart or 'agrees'}")
     # a certificate in which a status, or a number beside it, is another one
     def around(ball):
         middle = float(ball.mid())

@@ -594,3 +594,53 @@ fn all_certificates_are_made_confirmed_and_drawn() {
     assert_eq!(stored, drawn("new"));
     assert!(stored.len() >= 4);
 }
+
+#[test]
+fn an_open_range_has_one_verdict() {
+    let place = Place::new();
+    let found = verify(&place, "--scheme catmull-clark --valences 3..", 0);
+    assert_eq!((&found["status"], &found["holds"]), (&"proven".into(), &true.into()));
+    assert_eq!(found["single"].as_array().unwrap().len(), 2);
+    assert_eq!(found["all"]["from"], 5);
+    let (text, data) = witness(&found["all"], "bounded_curvature");
+    assert!(text.contains("at every valence") && data["ratio"][0].as_f64().unwrap() > 1.1);
+    assert_eq!(
+        verify(&place, "--scheme catmull-clark -N 3..4,9.. --require bounded", 1)["status"],
+        "refuted"
+    );
+    assert_eq!(verify(&place, "--scheme doo-sabin -N 700..", 0)["all"]["from"], 700);
+    // stored with those of the valences before, and checked again
+    let run = place.run(&["verify", "--scheme", "doo-sabin", "-N", "4..", "-o", "all"]);
+    assert!(
+        run.stdout.ends_with("c1 is proven for every N >= 4\n"),
+        "{}",
+        run.stdout
+    );
+    let rows = place.run(&["verify", "--recheck", "all", "--format", "csv"]);
+    assert_eq!(
+        (rows.code, csv_rows(&rows.stdout).len()),
+        (Some(0), 2),
+        "{}",
+        rows.stdout
+    );
+    let path = place.path().join("all/N005-and-more.json");
+    let text = std::fs::read_to_string(&path)
+        .unwrap()
+        .replace("\"undecided\"", "\"proven\"");
+    std::fs::write(&path, text).unwrap();
+    let run = place.run(&["verify", "--recheck", "all/N005-and-more.json"]);
+    assert!(
+        run.code == Some(1) && run.stdout.contains("bounded_curvature: not as claimed"),
+        "{}",
+        run.stdout
+    );
+    for (line, accepted) in [
+        ("--scheme lambda:optimal -N 3..", "catmull-clark and doo-sabin"),
+        ("--scheme catmull-clark -N 3.. --fan 3", "--fan"),
+        ("--scheme catmull-clark -N 3.. --exact", "file:"),
+        ("--lambda-range 0.4..0.6 -N 3..", "a range with an end"),
+        ("--scheme catmull-clark -N 1001..", "3 to 1000"),
+    ] {
+        assert!(refused(&place, line).contains(accepted), "{line}");
+    }
+}
