@@ -18,6 +18,7 @@ use eigenring_scheme::{Corner, Scheme, Spec, registry};
 use eigenring_spectral::Extended;
 use eigenring_tune::objective::Settings;
 use eigenring_tune::sweep::Options;
+use rayon::prelude::*;
 use serde_json::Value;
 
 /// Enclosures are up to 1e-12 wide; eigenvalues of double arithmetic with a vector each are closer still.
@@ -40,53 +41,59 @@ fn rules(name: &str, valence: usize) -> (Scheme<f64>, Option<Scheme<Extended>>) 
 
 #[test]
 fn compare_says_what_certificates_and_spectra_say() {
-    let (mut strict, mut tied) = (0, 0);
-    for example in registry().iter().flat_map(|family| family.examples) {
-        for valence in 3..=12 {
-            let spec: Spec = example.parse().unwrap();
-            let (scheme, extended) = rules(example, valence);
-            let row = Row::new(example, &scheme, extended.as_ref()).unwrap();
-            let place = format!("{example} at N = {valence}: {row:?}");
+    let examples = registry().iter().flat_map(|family| family.examples);
+    let cases: Vec<(&str, usize)> = examples
+        .flat_map(|&example| (3..=12).map(move |n| (example, n)))
+        .collect();
+    // certificates of high orders take most of the time
+    let counts = cases.into_par_iter().map(|(example, valence)| {
+        let spec: Spec = example.parse().unwrap();
+        let (scheme, extended) = rules(example, valence);
+        let row = Row::new(example, &scheme, extended.as_ref()).unwrap();
+        let place = format!("{example} at N = {valence}: {row:?}");
 
-            let analysis = Analysis::of_rules(&scheme, extended.as_ref(), None, None).unwrap();
-            let list = analysis.spectrum.eigenvalues;
-            let lambda = list[1].modulus();
-            let mu = list[2..]
-                .iter()
-                .map(|e| e.modulus())
-                .find(|m| *m < lambda * (1.0 - ROUNDING));
+        let analysis = Analysis::of_rules(&scheme, extended.as_ref(), None, None).unwrap();
+        let list = analysis.spectrum.eigenvalues;
+        let lambda = list[1].modulus();
+        let mu = list[2..]
+            .iter()
+            .map(|e| e.modulus())
+            .find(|m| *m < lambda * (1.0 - ROUNDING));
+        assert!(close(row.lambda.unwrap(), lambda), "{place}");
+        assert!(
+            close(row.ratio.unwrap(), mu.unwrap_or(0.0) / (lambda * lambda)),
+            "{place}"
+        );
+        assert!(close(row.gap.unwrap(), 1.0 - mu.unwrap_or(0.0) / lambda), "{place}");
+
+        let certificate = certify(Input::from_spec(&spec, valence).unwrap(), valence).unwrap();
+        let check = |name: Statement| certificate.checks.iter().find(|check| check.name == name).unwrap();
+        let of = |name: Statement| check(name).enclosure.map(|enclosure| enclosure.mid());
+        assert!(close(row.hull.unwrap(), of(Statement::Hull).unwrap()), "{place}");
+        if let Some(lambda) = of(Statement::Dominant).filter(|_| check(Statement::Dominant).holds) {
             assert!(close(row.lambda.unwrap(), lambda), "{place}");
-            assert!(
-                close(row.ratio.unwrap(), mu.unwrap_or(0.0) / (lambda * lambda)),
-                "{place}"
-            );
-            assert!(close(row.gap.unwrap(), 1.0 - mu.unwrap_or(0.0) / lambda), "{place}");
-
-            let certificate = certify(Input::from_spec(&spec, valence).unwrap(), valence).unwrap();
-            let check = |name: Statement| certificate.checks.iter().find(|check| check.name == name).unwrap();
-            let of = |name: Statement| check(name).enclosure.map(|enclosure| enclosure.mid());
-            assert!(close(row.hull.unwrap(), of(Statement::Hull).unwrap()), "{place}");
-            if let Some(lambda) = of(Statement::Dominant).filter(|_| check(Statement::Dominant).holds) {
-                assert!(close(row.lambda.unwrap(), lambda), "{place}");
-            }
-            if let Some(ratio) = of(Statement::BoundedCurvature) {
-                assert!(close(row.ratio.unwrap(), ratio), "{place}, {ratio}");
-            }
-            // a margin is printed where the statement holds, and nowhere else
-            let certified = check(Statement::Strict);
-            match (row.strict, certified.margin.filter(|_| certified.holds)) {
-                (Some(margin), Some(known)) => {
-                    strict += 1;
-                    // a lower bound, which is coarse where repeated eigenvalues are only bounded
-                    assert!((-ROUNDING..COARSE).contains(&(margin - known)), "{place}, {known}");
-                }
-                (None, None) => tied += 1,
-                // a certificate may be unable to tell what floating point numbers tell by a wide gap
-                (Some(_), None) => assert_eq!(certified.status, Status::Undecided, "{place}"),
-                (None, Some(known)) => panic!("{place}, proven with {known}"),
-            }
         }
-    }
+        if let Some(ratio) = of(Statement::BoundedCurvature) {
+            assert!(close(row.ratio.unwrap(), ratio), "{place}, {ratio}");
+        }
+        // a margin is printed where the statement holds, and nowhere else
+        let certified = check(Statement::Strict);
+        match (row.strict, certified.margin.filter(|_| certified.holds)) {
+            (Some(margin), Some(known)) => {
+                // a lower bound, which is coarse where repeated eigenvalues are only bounded
+                assert!((-ROUNDING..COARSE).contains(&(margin - known)), "{place}, {known}");
+                [1, 0]
+            }
+            (None, None) => [0, 1],
+            // a certificate may be unable to tell what floating point numbers tell by a wide gap
+            (Some(_), None) => {
+                assert_eq!(certified.status, Status::Undecided, "{place}");
+                [0, 0]
+            }
+            (None, Some(known)) => panic!("{place}, proven with {known}"),
+        }
+    });
+    let [strict, tied] = counts.reduce(|| [0, 0], |[a, b], [c, d]| [a + c, b + d]);
     // both happen: Catmull-Clark is strict, the biquadratic schemes have ties at N >= 4
     assert!(strict > 60 && tied > 10, "{strict} and {tied}");
 }
