@@ -3,6 +3,7 @@
 use crate::error::{Accepted, Error};
 use crate::on_mesh::OnMesh;
 use crate::schemes::{SchemeName, Tuner};
+use crate::table::short;
 use eigenring_scheme::user::Reading;
 use eigenring_scheme::{Definition, Spec};
 use eigenring_surface::io::{Format, MeshFile};
@@ -288,22 +289,42 @@ impl Fields {
     /// Names and values below each other.
     pub fn text(&self) -> String {
         let width = self.0.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
-        let shown = |value: &Value| match value {
-            Value::Null => "-".to_owned(),
-            Value::String(text) => text.clone(),
-            Value::Object(map) => {
-                let pairs: Vec<String> = map.iter().map(|(key, value)| format!("{key}: {value}")).collect();
-                if pairs.is_empty() {
-                    "none".to_owned()
-                } else {
-                    pairs.join(", ")
-                }
-            }
-            Value::Array(list) if list.is_empty() => "none".to_owned(),
-            other => other.to_string(),
-        };
         let line = |(name, value): &(&str, Value)| format!("{name:<width$}  {}\n", shown(value));
         self.0.iter().map(line).collect()
+    }
+}
+
+/// A value in words, numbers with as many digits as in tables.
+fn shown(value: &Value) -> String {
+    match value {
+        Value::Null => "-".to_owned(),
+        Value::String(text) => text.clone(),
+        Value::Number(number) if number.is_f64() => number.as_f64().map_or(String::new(), short),
+        // a value and where it is: face, sub, s, t
+        Value::Object(map) if map.contains_key("value") => {
+            let part = |name: &str| map.get(name).map_or(String::new(), shown);
+            let sub = match map.get("sub").and_then(Value::as_u64) {
+                Some(0) | None => String::new(),
+                Some(sub) => format!(".{sub}"),
+            };
+            format!(
+                "{} at ({}, {}) of face {}{sub}",
+                part("value"),
+                part("s"),
+                part("t"),
+                part("face")
+            )
+        }
+        Value::Object(map) if map.is_empty() => "none".to_owned(),
+        Value::Object(map) => {
+            let pairs: Vec<String> = map
+                .iter()
+                .map(|(key, value)| format!("{key}: {}", shown(value)))
+                .collect();
+            pairs.join(", ")
+        }
+        Value::Array(list) if list.is_empty() => "none".to_owned(),
+        other => other.to_string(),
     }
 }
 

@@ -3,10 +3,10 @@
 use super::subdivide::SurfaceArgs;
 use crate::args::{self, SchemeOnMesh};
 use crate::error::Error;
-use crate::output::Output;
+use crate::output::{Output, Wide};
 use clap::Args;
 use eigenring_atlas::curvature::{centre_table, curvatures, euler_of_smooth, summary};
-use eigenring_atlas::table::{Format, pretty};
+use eigenring_atlas::table::{Format, WIDTH, pretty};
 use eigenring_surface::Surface;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -31,6 +31,8 @@ pub struct Arguments {
     radii: String,
     #[command(flatten)]
     surface: SurfaceArgs,
+    #[command(flatten)]
+    wide: Wide,
     #[command(flatten)]
     output: Output,
 }
@@ -60,6 +62,7 @@ impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         self.surface.start()?;
         let format = self.output.format()?;
+        let wide = self.wide.of(format)?;
         let radii = self.radii()?;
         if !(1..=1000).contains(&self.per_face) {
             return Err(Error::range("per-face", self.per_face, "1 to 1000"));
@@ -78,7 +81,8 @@ impl Arguments {
                 object["centres"] = table.json();
                 pretty(&object)
             }
-            Format::Text => format!("{}\n{}", fields.text(), table.render(Format::Text)),
+            Format::Text if wide => format!("{}\n{}", fields.text(), table.render(Format::Text)),
+            Format::Text => format!("{}\n{}", fields.text(), table.fitted(WIDTH)),
             format => table.render(format),
         };
         self.output.emit(&text)?;

@@ -26,7 +26,7 @@ use eigenring_scheme::{Number, Shape};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-const EXAMPLES: &str = "Examples:\n  eigenring verify --scheme catmull-clark -N 5\n  eigenring verify --scheme lambda:optimal -N 3,6..8 --require strict\n  eigenring verify --lambda-range 0.4..0.6 -N 6 --require strict\n  eigenring verify --scheme catmull-clark -N 3 --format json\n  eigenring verify --scheme catmull-clark -N 7 -o N7.json   store the certificate, to be checked again:\n  eigenring verify --recheck N7.json\n  eigenring verify --scheme catmull-clark --valences 3..       every valence, by one proof\n  eigenring verify --all                                       rebuilds results/certificates";
+const EXAMPLES: &str = "Examples:\n  eigenring verify --scheme catmull-clark -N 5\n  eigenring verify --scheme lambda:optimal -N 3,6..8 --require strict\n  eigenring verify --lambda-range 0.4..0.6 -N 6 --require strict\n  eigenring verify --scheme catmull-clark -N 3 --format json\n  eigenring verify --scheme catmull-clark -N 7 -o N7.json   store it, to be checked again:\n  eigenring verify --recheck N7.json\n  eigenring verify --scheme catmull-clark --valences 3..       every valence, by one proof\n  eigenring verify --all                                       rebuilds results/certificates";
 
 /// Prove that a scheme is C1, or has bounded curvature, at a valence or over a range of lambda.
 ///
