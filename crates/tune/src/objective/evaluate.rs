@@ -17,7 +17,7 @@
 
 use super::fields::{Block, Derivatives, Fields, Turns};
 use super::jet::{Frame, Jet, Spin, Velocity};
-use super::lanes::Lanes;
+use super::lanes::{Lanes, Total};
 use super::maps::{self, Annuli};
 use super::saddle::{self, Saddle};
 use super::sectors::WeightTable;
@@ -154,14 +154,14 @@ impl Jets {
 /// The sums of a mean `<h>` and of its derivatives.
 #[derive(Clone, Copy)]
 struct Moment<const R: usize> {
-    value: Lanes,
-    rates: [Lanes; R],
+    value: Total,
+    rates: [Total; R],
 }
 
 impl<const R: usize> Moment<R> {
     const ZERO: Self = Moment {
-        value: Lanes::ZERO,
-        rates: [Lanes::ZERO; R],
+        value: Total::ZERO,
+        rates: [Total::ZERO; R],
     };
 
     /// The fit `factor * value / area` and its derivatives; the first rate is that with respect to the corner
@@ -178,6 +178,43 @@ impl<const R: usize> Moment<R> {
 
 /// Evaluates all three parts; without `GRADIENT` the same value, bit for bit, and meaningless derivatives.
 pub(super) fn evaluate<const GRADIENT: bool>(
+    fields: &Fields,
+    turns: &Turns,
+    annuli: &Annuli,
+    weight: Option<&Weight>,
+    coefficients: &Coefficients<f64>,
+) -> Outcome {
+    // once for the registers that the processor has; nothing is contracted or reordered, so that the bits are
+    // the same on all of them
+    pulp::Arch::new().dispatch(Kernel::<GRADIENT> {
+        fields,
+        turns,
+        annuli,
+        weight,
+        coefficients,
+    })
+}
+
+/// The arguments of an evaluation.
+struct Kernel<'a, const GRADIENT: bool> {
+    fields: &'a Fields,
+    turns: &'a Turns,
+    annuli: &'a Annuli,
+    weight: Option<&'a Weight>,
+    coefficients: &'a Coefficients<f64>,
+}
+
+impl<const GRADIENT: bool> pulp::WithSimd for Kernel<'_, GRADIENT> {
+    type Output = Outcome;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Outcome {
+        at_width::<GRADIENT>(self.fields, self.turns, self.annuli, self.weight, self.coefficients)
+    }
+}
+
+#[inline(always)]
+fn at_width<const GRADIENT: bool>(
     fields: &Fields,
     turns: &Turns,
     annuli: &Annuli,
@@ -206,13 +243,16 @@ pub(super) fn evaluate<const GRADIENT: bool>(
             let rate = jets.rates(block);
             let growth = point.area * rate.divergence;
             area.rates[0] += growth;
-            cup.rates[0] += growth * point.cup.t;
-            for (sum, rate) in cup.rates.iter_mut().zip(&rate.cup) {
+            let [by_radius, by_height @ ..] = rate.cup;
+            cup.rates[0].add(&[growth * point.cup.t, point.area * by_radius.t]);
+            for (sum, rate) in cup.rates[1..].iter_mut().zip(by_height) {
                 *sum += point.area * rate.t;
             }
             for (moment, sign) in saddles.iter_mut().zip(SIGNS) {
-                moment.rates[0] += growth * fitted(&point.saddle, sign);
-                for (sum, rate) in moment.rates.iter_mut().zip(&rate.saddle) {
+                let [by_radius, by_height @ ..] = &rate.saddle;
+                let moved = point.area * fitted(by_radius, sign);
+                moment.rates[0].add(&[growth * fitted(&point.saddle, sign), moved]);
+                for (sum, rate) in moment.rates[1..].iter_mut().zip(by_height) {
                     *sum += point.area * fitted(rate, sign);
                 }
             }
@@ -265,21 +305,21 @@ pub(super) fn evaluate<const GRADIENT: bool>(
 
 /// The sums of one part.
 struct Sum<const R: usize> {
-    value: Lanes,
+    value: Total,
     /// `sum dJ q`.
-    growth: Lanes,
+    growth: Total,
     /// `sum J q_fit`.
-    by_fit: Lanes,
+    by_fit: Total,
     /// `sum J q_h dh`.
-    rates: [Lanes; R],
+    rates: [Total; R],
 }
 
 impl<const R: usize> Sum<R> {
     const ZERO: Self = Sum {
-        value: Lanes::ZERO,
-        growth: Lanes::ZERO,
-        by_fit: Lanes::ZERO,
-        rates: [Lanes::ZERO; R],
+        value: Total::ZERO,
+        growth: Total::ZERO,
+        by_fit: Total::ZERO,
+        rates: [Total::ZERO; R],
     };
 
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! Several Gauss points at a time.
 //!
 //! All points run through the same formulas, so the evaluation handles [`WIDTH`] of them in one array; the
-//! compiler turns the arrays into vector registers without any target flag.
+//! compiler turns the arrays into vector registers of the processor that it runs on (see `evaluate`).
 
 use eigenring_spline::{BigRational, Same, Scalar};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
@@ -29,10 +29,39 @@ impl Lanes {
         }
         self
     }
+}
 
-    /// The sum of the lanes, in index order.
+/// A sum over all points, in two parts: those of points with even and with odd numbers. Its bits do not depend
+/// on how many points are a block.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Total([f64; 2]);
+
+impl Total {
+    pub const ZERO: Total = Total([0.0; 2]);
+
+    /// The sum of both parts.
     pub fn sum(self) -> f64 {
-        self.0.iter().sum()
+        self.0[0] + self.0[1]
+    }
+}
+
+impl Total {
+    /// Adds all terms of a point before those of the next.
+    #[inline(always)]
+    pub fn add(&mut self, terms: &[Lanes]) {
+        for pair in 0..WIDTH / 2 {
+            for term in terms {
+                self.0[0] += term.0[2 * pair];
+                self.0[1] += term.0[2 * pair + 1];
+            }
+        }
+    }
+}
+
+impl AddAssign<Lanes> for Total {
+    #[inline(always)]
+    fn add_assign(&mut self, lanes: Lanes) {
+        self.add(&[lanes]);
     }
 }
 

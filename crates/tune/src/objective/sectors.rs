@@ -137,6 +137,7 @@ impl<'a> WeightTable<'a> {
     }
 
     /// Two square roots and one division per point and class: the floor of the whole computation.
+    #[inline(always)]
     pub fn fill(&mut self, weight: &Weight) {
         weight.fill(
             self.k.as_flattened(),

@@ -59,6 +59,7 @@ impl Weight {
     }
 
     /// [`Weight::at`] for all of `k`; a loop over plain slices, which the compiler vectorises reliably.
+    #[inline(always)]
     pub fn fill(&self, k: &[f64], w: &mut [f64], slope: &mut [f64]) {
         for ((&k, w), slope) in k.iter().zip(w).zip(slope) {
             (*w, *slope) = self.at(k);
