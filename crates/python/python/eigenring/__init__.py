@@ -37,6 +37,7 @@ from ._native import (
     lambda_table,
     tune,
 )
+from ._sweep import sweep
 from ._tables import tables
 
 __all__ = [
@@ -60,6 +61,7 @@ __all__ = [
     "__version__",
     "figure",
     "lambda_table",
+    "sweep",
     "tables",
     "tune",
 ]
