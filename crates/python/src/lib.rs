@@ -4,6 +4,7 @@
 mod at;
 mod failure;
 mod figure;
+mod foreign;
 mod maps;
 mod mesh;
 mod proofs;

@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::figure::Picture;
+use crate::foreign;
 use crate::scheme::Scheme;
 use crate::values;
 use crate::work;
@@ -12,7 +13,7 @@ use eigenring_atlas::render::{Settings, Show, Subject, render};
 use eigenring_atlas::schemes::{SchemeName, Tuner};
 use eigenring_atlas::{files, limits, meshes};
 use eigenring_surface::{self as surface, Boundary, Place, Point3, Refiner, Rules, Surface, features};
-use numpy::{PyArray1, PyArrayDyn, PyUntypedArray, PyUntypedArrayMethods};
+use numpy::{PyArray1, PyArrayDyn};
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -23,6 +24,9 @@ use std::sync::Arc;
 /// ``vertices`` is a float64 array of shape (n, 3), or a list; ``faces`` an integer array of shape (m, k), or
 /// a list of faces of any sizes, counter-clockwise from outside. ``creases`` maps pairs of vertices to
 /// sharpness, ``corners`` vertices; ``boundary`` is ``"edge"``, ``"corner"`` or ``"shrink"``.
+///
+/// ``Mesh(object)`` takes the mesh of another library: an object with ``vertices`` and ``faces`` as trimesh has
+/// them, or with ``points`` and ``cells`` as meshio has them.
 ///
 /// >>> import eigenring
 /// >>> square = eigenring.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
@@ -111,40 +115,31 @@ impl Mesh {
     }
 }
 
-/// Faces of any sizes.
-fn faces_of(given: &Bound<'_, PyAny>) -> Result<Vec<Vec<u32>>, Failure> {
-    let refuse = |reason: String| {
-        Failure::usage(
-            format!("faces: {reason}"),
-            "an integer array of shape (m, k), or a list of faces",
-        )
-    };
-    if let Ok(array) = given.cast::<PyUntypedArray>() {
-        let shape = array.shape().to_vec();
-        if shape.len() != 2 {
-            return Err(refuse(format!("the shape is {shape:?}")));
-        }
-        let flat = values::indices(&array.call_method0("ravel")?, "faces")?;
-        return Ok(flat.chunks(shape[1].max(1)).map(<[u32]>::to_vec).collect());
-    }
-    let items = given.try_iter().map_err(|_| refuse("no list".to_owned()))?;
-    items.map(|face| values::indices(&face?, "faces")).collect()
-}
-
 #[pymethods]
 impl Mesh {
     #[new]
-    #[pyo3(signature = (vertices, faces, *, creases = None, corners = None, boundary = None))]
+    #[pyo3(signature = (vertices, faces = None, *, creases = None, corners = None, boundary = None))]
     fn new(
         vertices: &Bound<'_, PyAny>,
-        faces: &Bound<'_, PyAny>,
+        faces: Option<&Bound<'_, PyAny>>,
         creases: Option<BTreeMap<(u32, u32), f64>>,
         corners: Option<BTreeMap<u32, f64>>,
         boundary: Option<&str>,
     ) -> Result<Self, Failure> {
-        let (entries, ..) = values::rows(vertices, "vertices", Some(3))?;
-        let points = entries.chunks_exact(3).map(|p| Point3::new(p[0], p[1], p[2])).collect();
-        let mut mesh = surface::Mesh::new(points, faces_of(faces)?)?;
+        let mut mesh = match (vertices.cast::<Mesh>(), faces) {
+            (Ok(mesh), None) => (*mesh.get().mesh).clone(),
+            (_, faces) => {
+                let (entries, faces) = match faces {
+                    Some(faces) => (
+                        values::rows(vertices, "vertices", Some(3))?.0,
+                        foreign::faces_of(faces)?,
+                    ),
+                    None => foreign::arrays(vertices)?,
+                };
+                let points = entries.chunks_exact(3).map(|p| Point3::new(p[0], p[1], p[2])).collect();
+                surface::Mesh::new(points, faces)?
+            }
+        };
         let sharpness = |value: f64| match value {
             value if value >= 0.0 => Ok(value),
             value => Err(Failure::usage(format!("the sharpness is {value}"), "0 and above")),
@@ -156,7 +151,7 @@ impl Mesh {
             mesh.features.corners.insert(vertex, sharpness(value)?);
         }
         mesh.features.boundary = match boundary {
-            None => None,
+            None => mesh.features.boundary,
             Some("edge") => Some(Boundary::Edge),
             Some("corner") => Some(Boundary::Corner),
             Some("shrink") => Some(Boundary::Shrink),

@@ -1,5 +1,5 @@
 from os import PathLike
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union, final
+from typing import Any, Callable, Dict, List, Mapping, Optional, Protocol, Sequence, Tuple, Union, final, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -188,8 +188,33 @@ class LimitPoints:
     @property
     def kinds(self) -> List[str]: ...
 
+class _HasFaces(Protocol):
+    """As trimesh has it."""
+
+    @property
+    def vertices(self) -> Any: ...
+    @property
+    def faces(self) -> Any: ...
+
+class _HasCells(Protocol):
+    """As meshio has it."""
+
+    points: Any
+    cells: Any
+
 @final
 class Mesh:
+    @overload
+    def __new__(
+        cls,
+        vertices: Union[Mesh, _HasFaces, _HasCells],
+        faces: None = None,
+        *,
+        creases: Optional[Mapping[Tuple[int, int], float]] = None,
+        corners: Optional[Mapping[int, float]] = None,
+        boundary: Optional[str] = None,
+    ) -> Mesh: ...
+    @overload
     def __new__(
         cls,
         vertices: Union[_Floats, Sequence[Sequence[float]]],
