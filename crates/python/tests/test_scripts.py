@@ -7,11 +7,12 @@ import sys
 import pytest
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[3] / "scripts"
-NAMES = sorted(str(path.relative_to(SCRIPTS)) for path in [*SCRIPTS.glob("*.py"), *SCRIPTS.glob("peers/*.py")])
+NAMES = sorted(str(path.relative_to(SCRIPTS)) for path in [*SCRIPTS.glob("*.py"), *SCRIPTS.glob("peers/*.py"), SCRIPTS / "site/pages.py", SCRIPTS / "site.sh"])
 
 
 def run(name, *arguments):
-    return subprocess.run([sys.executable, SCRIPTS / name, *arguments], capture_output=True, text=True, timeout=120)
+    program = ["bash"] if name.endswith(".sh") else [sys.executable]
+    return subprocess.run([*program, SCRIPTS / name, *arguments], capture_output=True, text=True, timeout=120)
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if not name.endswith("/peers.py")])
