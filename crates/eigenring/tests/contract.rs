@@ -341,6 +341,35 @@ fn help_quotes_the_glossary() {
 }
 
 #[test]
+fn every_command_has_a_page_for_man() {
+    let place = Place::new();
+    let top = place.ok(&["completions", "man"]);
+    let listed: Vec<_> = top
+        .lines()
+        .filter_map(|line| line.strip_prefix("eigenring\\-")?.strip_suffix("(1)"))
+        .map(|name| name.replace('\\', ""))
+        .filter(|name| name != "help")
+        .collect();
+    assert!(
+        listed.len() > 20 && listed.contains(&"new-scheme".to_owned()),
+        "{listed:?}"
+    );
+    for name in ["new-scheme", "make revolve"] {
+        let words: Vec<_> = ["completions", "man"].into_iter().chain(name.split(' ')).collect();
+        let page = place.ok(&words);
+        assert!(
+            page.contains(&format!(".TH eigenring-{} 1 ", name.replace(' ', "-"))),
+            "{page}"
+        );
+        assert!(page.contains(".SH SYNOPSIS") && page.contains("\\-\\-help"), "{page}");
+    }
+    for wrong in [["completions", "man", "tuna"], ["completions", "bash", "tune"]] {
+        let run = place.run(&wrong);
+        assert!(run.code == Some(2) && run.stderr.contains("accepted"), "{}", run.stderr);
+    }
+}
+
+#[test]
 fn help_has_examples_and_no_escape_sequences() {
     let place = Place::new();
     assert!(place.ok(&["--version"]).starts_with("eigenring "));

@@ -4,7 +4,7 @@ use super::Cli;
 use crate::error::Error;
 use crate::files;
 use clap::builder::PossibleValue;
-use clap::{Args, CommandFactory, ValueEnum};
+use clap::{Args, Command, CommandFactory, ValueEnum};
 use clap_complete::{Shell, generate};
 use std::process::ExitCode;
 
@@ -18,7 +18,7 @@ pub struct Arguments {
     #[arg(value_enum)]
     shell: Reader,
     /// With man: the command whose page it is, in place of the page of them all
-    command: Option<String>,
+    command: Vec<String>,
 }
 
 /// Who reads what is printed.
@@ -52,29 +52,35 @@ impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         let mut text = Vec::new();
         let mut cli = Cli::command();
-        match (self.shell, self.command) {
+        match (self.shell, self.command.first()) {
             (Reader::Shell(shell), None) => generate(shell, &mut cli, "eigenring", &mut text),
             (Reader::Shell(_), Some(command)) => {
                 let message = format!("'{command}' after the name of a shell");
                 return Err(Error::usage(message, "a command after man"));
             }
-            (Reader::Man, command) => {
+            (Reader::Man, _) => {
                 // gives commands below others their whole names
                 cli.build();
-                let page = match command {
-                    None => cli,
-                    Some(name) => match cli.find_subcommand(&name) {
-                        Some(found) => found.clone(),
-                        None => {
-                            let names: Vec<_> = cli.get_subcommands().map(clap::Command::get_name).collect();
-                            return Err(Error::usage(format!("no command '{name}'"), names.join(", ")));
-                        }
-                    },
-                };
-                clap_mangen::Man::new(page).render(&mut text).map_err(Error::Output)?;
+                let page = self.command.iter().try_fold(&cli, below)?.clone();
+                let source = format!("eigenring {}", env!("CARGO_PKG_VERSION"));
+                let man = clap_mangen::Man::new(page).source(source);
+                man.render(&mut text).map_err(Error::Output)?;
             }
         }
         files::emit(None, &text)?;
         Ok(ExitCode::SUCCESS)
     }
+}
+
+/// The command of a name below another.
+fn below<'a>(command: &'a Command, name: &String) -> Result<&'a Command, Error> {
+    command.find_subcommand(name).ok_or_else(|| {
+        let names = command.get_subcommands().map(Command::get_name);
+        let accepted: Vec<_> = names.filter(|&name| name != "help").collect();
+        let accepted = match accepted.is_empty() {
+            true => "no further name".to_owned(),
+            false => accepted.join(", "),
+        };
+        Error::usage(format!("no command '{name}' below {}", command.get_name()), accepted)
+    })
 }
