@@ -359,8 +359,8 @@ pub fn confirm(path: &Path, most: usize) -> Result<Confirmation, Error> {
 /// # Errors
 /// As [`confirm`].
 pub fn confirm_text(path: &Path, text: &str, most: usize) -> Result<Confirmation, Error> {
-    // a certificate of a range has tiles, one of a scheme an input, one of a range of a parameter both, and one
-    // of all valences tiles and a first valence
+    // a certificate of a range has tiles, one of a scheme an input, one of a range of a parameter both, and
+    // one of all valences tiles and a first valence
     let value = serde_json::from_str::<serde_json::Value>(text).unwrap_or_default();
     let is_range = value.get("tiles").is_some();
     let is_open = is_range && value.get("from").is_some();

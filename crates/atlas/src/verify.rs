@@ -123,7 +123,8 @@ fn certificate_text(certificate: &Certificate, requirement: Requirement) -> Stri
 }
 
 /// Certificates of single valences and one of all from a valence on, with one verdict on all of them: in JSON
-/// one object; CSV and LaTeX begin with a column of valences, in which `5..` stands for 5 and all larger ones.
+/// one object; CSV and LaTeX begin with a column of valences, in which `5..` stands for 5 and all larger
+/// ones.
 pub fn all_valences(
     singles: &[Certificate],
     rest: &ValencesCertificate,

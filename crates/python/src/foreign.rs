@@ -1,7 +1,7 @@
 //! Meshes of other Python libraries, known by their attributes: none of these libraries is imported.
 //!
-//! An object with `vertices` and `faces` is one as trimesh has it, one with `points` and `cells` as meshio has
-//! it. Their numbers may be of any real type and in any order of memory, as those libraries please.
+//! An object with `vertices` and `faces` is one as trimesh has it, one with `points` and `cells` as meshio
+//! has it. Their numbers may be of any real type and in any order of memory, as those libraries please.
 
 use crate::failure::Failure;
 use crate::values;

@@ -25,8 +25,8 @@ use std::sync::Arc;
 /// a list of faces of any sizes, counter-clockwise from outside. ``creases`` maps pairs of vertices to
 /// sharpness, ``corners`` vertices; ``boundary`` is ``"edge"``, ``"corner"`` or ``"shrink"``.
 ///
-/// ``Mesh(object)`` takes the mesh of another library: an object with ``vertices`` and ``faces`` as trimesh has
-/// them, or with ``points`` and ``cells`` as meshio has them.
+/// ``Mesh(object)`` takes the mesh of another library: an object with ``vertices`` and ``faces`` as trimesh
+/// has them, or with ``points`` and ``cells`` as meshio has them.
 ///
 /// >>> import eigenring
 /// >>> square = eigenring.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])

@@ -14,11 +14,11 @@
 //!   the Jacobian is positive on sector 0.
 //! * **Injective**: where the first coordinate is positive on sector 0, its outer boundary stays in a
 //!   half-plane; it leads from a point to that point turned by theta, so that its argument grows by exactly
-//!   theta = 2 pi/N < pi, and the boundaries of all sectors together wind once round the centre. For a regular
-//!   map that decides, as for single valences.
-//! * **Curvature** is unbounded at every valence from 5 on at which block 2, which is none of the blocks 1 and
-//!   N-1 there, has an eigenvalue above lambda^2. Its vector is not zero on the points next to the centre,
-//!   which patches depend on.
+//!   theta = 2 pi/N < pi, and the boundaries of all sectors together wind once round the centre. For a
+//!   regular map that decides, as for single valences.
+//! * **Curvature** is unbounded at every valence from 5 on at which block 2, which is none of the blocks 1
+//!   and N-1 there, has an eigenvalue above lambda^2. Its vector is not zero on the points next to the
+//!   centre, which patches depend on.
 //!
 //! Smaller valences have fewer blocks, and have certificates of their own.
 //!
@@ -263,8 +263,8 @@ impl ValencesCertificate {
     }
 }
 
-/// Checks the text of a stored certificate again with the checks alone; it must be exactly what is written for
-/// the certificate that it holds.
+/// Checks the text of a stored certificate again with the checks alone; it must be exactly what is written
+/// for the certificate that it holds.
 ///
 /// # Errors
 /// Those of reading it; [`Error::Valences`].

@@ -69,8 +69,8 @@ fn single_certificates_lie_in_the_tiles() {
                     "{spec} {valence}"
                 );
             }
-            // on a tile of no width the same coefficients bound the same Jacobian; single maps are scaled to 1
-            // at the face point, which is here at f on the x-axis, and their y is not divided by tau
+            // on a tile of no width the same coefficients bound the same Jacobian; single maps are scaled to
+            // 1 at the face point, which is here at f on the x-axis, and their y is not divided by tau
             let tau = (std::f64::consts::PI / valence as f64).tan();
             let narrow = Tile::find(&rules, [tau, tau]).check(&rules).expect("a tile");
             let face = match family {
