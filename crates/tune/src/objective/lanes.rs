@@ -31,8 +31,8 @@ impl Lanes {
     }
 }
 
-/// A sum over all points, in two parts: those of points with even and with odd numbers. Its bits do not depend
-/// on how many points are a block.
+/// A sum over all points, in two parts: those of points with even and with odd numbers. Its bits do not
+/// depend on how many points are a block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Total([f64; 2]);
 
