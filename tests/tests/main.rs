@@ -13,6 +13,7 @@ mod formula_schemes;
 mod generated;
 mod index;
 mod limits;
+mod nonuniform_results;
 mod numbering_picture;
 mod objective_reference;
 mod oracle;

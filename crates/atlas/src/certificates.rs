@@ -5,6 +5,7 @@
 //! tabulated.
 
 use crate::error::{Accepted, Error};
+use crate::nonuniform::certificate::Certificate as WithIntervals;
 use crate::schemes::{SchemeName, Tuner, stem};
 use crate::table::Table;
 use eigenring_certify::parameter::{ParameterCertificate, recheck_parameter_text};
@@ -336,15 +337,15 @@ pub struct Confirmation {
     pub path: PathBuf,
     /// What it certifies: a scheme or a range.
     pub what: String,
-    /// The valence.
-    pub valence: usize,
+    /// The valence; none for all.
+    pub valence: Option<usize>,
     /// Whether the file is unchanged and every claim was confirmed.
     pub confirmed: bool,
     /// What was not confirmed.
     pub remark: String,
 }
 
-/// Checks a stored certificate of either kind again, by its evidence alone. The valence is at most `most`:
+/// Checks a stored certificate of any kind again, by its evidence alone. The valence is at most `most`:
 /// one in a file is no more to be trusted than one that a user types, and work grows with it.
 ///
 /// # Errors
@@ -360,7 +361,8 @@ pub fn confirm(path: &Path, most: usize) -> Result<Confirmation, Error> {
 /// As [`confirm`].
 pub fn confirm_text(path: &Path, text: &str, most: usize) -> Result<Confirmation, Error> {
     // a certificate of a range has tiles, one of a scheme an input, one of a range of a parameter both, and
-    // one of all valences tiles and a first valence
+    // one of all valences tiles and a first valence; one of a scheme with knot intervals has Bernstein
+    // coefficients
     let value = serde_json::from_str::<serde_json::Value>(text).unwrap_or_default();
     let is_range = value.get("tiles").is_some();
     let is_open = is_range && value.get("from").is_some();
@@ -377,7 +379,7 @@ pub fn confirm_text(path: &Path, text: &str, most: usize) -> Result<Confirmation
         let (certificate, found) = recheck_valences_text(text)?;
         let different = found.differences.iter();
         remarks.extend(different.map(|statement| format!("{statement}: not as claimed")));
-        (every(&certificate), certificate.from, found.intact)
+        (every(&certificate), Some(certificate.from), found.intact)
     } else if is_parameter {
         check_valence(ParameterCertificate::from_json(text)?.valence)?;
         let (certificate, found) = recheck_parameter_text(text)?;
@@ -386,7 +388,13 @@ pub fn confirm_text(path: &Path, text: &str, most: usize) -> Result<Confirmation
         }
         let different = found.different.iter();
         remarks.extend(different.map(|[first, last]| format!("{first}..{last}: not as claimed")));
-        (certificate.input.origin(), certificate.valence, found.intact)
+        (certificate.input.origin(), Some(certificate.valence), found.intact)
+    } else if WithIntervals::is_of_this_kind(&value) {
+        let certificate = WithIntervals::from_json(text)?;
+        certificate.valence().map_or(Ok(()), check_valence)?;
+        let (intact, found) = certificate.recheck(text)?;
+        remarks.extend(found);
+        (certificate.what(), certificate.valence(), intact)
     } else if is_range {
         check_valence(RangeCertificate::from_json(text)?.valence)?;
         let (certificate, found) = recheck_range_text(text)?;
@@ -400,7 +408,11 @@ pub fn confirm_text(path: &Path, text: &str, most: usize) -> Result<Confirmation
         });
         remarks.extend(different);
         let [start, end] = certificate.lambda;
-        (format!("lambda {start}..{end}"), certificate.valence, found.intact)
+        (
+            format!("lambda {start}..{end}"),
+            Some(certificate.valence),
+            found.intact,
+        )
     } else {
         check_valence(Certificate::from_json(text)?.valence)?;
         let (certificate, found) = recheck_text(text)?;
@@ -416,7 +428,7 @@ pub fn confirm_text(path: &Path, text: &str, most: usize) -> Result<Confirmation
             ),
         });
         remarks.extend(different);
-        (certificate.input.origin(), certificate.valence, found.intact)
+        (certificate.input.origin(), Some(certificate.valence), found.intact)
     };
     if !intact {
         remarks.insert(0, "changed after it was written: the digest differs".to_owned());

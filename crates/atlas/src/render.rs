@@ -39,6 +39,8 @@ pub enum Subject<'a> {
     Faces(Mesh),
     /// A mesh fine enough to pass for a smooth surface.
     Fine(Mesh),
+    /// The same with the normals at its points, where they are known.
+    Limits(Mesh, Vec<Option<Vector3<f64>>>),
 }
 
 /// How a picture is taken.
@@ -102,7 +104,8 @@ impl Subject<'_> {
                 Ok(found.collect::<Result<_, eigenring_surface::Error>>()?)
             }
             Subject::Faces(mesh) => Ok(flat(mesh, settings)),
-            Subject::Fine(mesh) => Ok(vec![smooth(mesh, settings)]),
+            Subject::Fine(mesh) => Ok(vec![smooth(mesh, &[], settings)]),
+            Subject::Limits(mesh, normals) => Ok(vec![smooth(mesh, normals, settings)]),
         }
     }
 }
@@ -197,8 +200,9 @@ fn flat(mesh: &Mesh, settings: &Settings) -> Vec<Sheet> {
     faces.collect()
 }
 
-/// A fine mesh with the mean of the normals of the faces around each point.
-fn smooth(mesh: &Mesh, settings: &Settings) -> Sheet {
+/// A fine mesh with normals at its points: those that are known, else the mean of the normals of the faces
+/// around.
+fn smooth(mesh: &Mesh, known: &[Option<Vector3<f64>>], settings: &Settings) -> Sheet {
     let points: Vec<Vector3<f64>> = mesh.points().iter().map(|p| turned(p.coords, settings.y_up)).collect();
     let mut normals = vec![Vector3::zeros(); points.len()];
     let mut triangles = Vec::new();
@@ -207,6 +211,11 @@ fn smooth(mesh: &Mesh, settings: &Settings) -> Sheet {
         let normal = area(&around);
         face.iter().for_each(|&v| normals[v as usize] += normal);
         triangles.extend(face.windows(2).skip(1).map(|pair| [face[0], pair[0], pair[1]]));
+    }
+    for (normal, known) in normals.iter_mut().zip(known) {
+        if let Some(known) = known {
+            *normal = turned(*known, settings.y_up);
+        }
     }
     let corners = points.iter().zip(&normals).map(|(&at, normal)| Corner {
         position: Point3::from(at),

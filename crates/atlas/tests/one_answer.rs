@@ -191,6 +191,7 @@ fn tables_of_figures_say_what_spectra_say() {
             range: (0.15, 0.9),
             width: entry.width,
             sweep: None,
+            knots: None,
             studies: &studies,
             tuner: &tuner,
         };

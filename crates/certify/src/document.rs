@@ -13,7 +13,7 @@ pub(crate) fn tool() -> String {
 }
 
 /// A kind of document.
-pub(crate) trait Document: Clone + Serialize + for<'de> Deserialize<'de> {
+pub trait Document: Clone + Serialize + for<'de> Deserialize<'de> {
     /// The version of the format that is read and written.
     const VERSION: u32;
 

@@ -48,6 +48,7 @@ mod status;
 pub mod valences;
 
 pub use certificate::{Balanced, CERTIFICATE_VERSION, Certificate, Evidence, certify, check};
+pub use document::Document;
 pub use error::Error;
 pub use input::{Identities, Input, Subject};
 pub use interval::Interval;

@@ -49,6 +49,34 @@ fn intervals_are_read_and_written_again() {
             place.read("b.obj")
         );
     }
+    // hybrid nets with n-gons go on from any level, and are evaluated as they are
+    with(
+        &place,
+        "cube.obj",
+        "uneven.obj",
+        "t knot 2/1/0 0 1 2\nt knot 2/1/0 0 3 0.7\n",
+    );
+    let subdivide = |from: &str, levels: &str, to: &str| {
+        place.ok(&["subdivide", from, "--scheme", "hnuss", "--levels", levels, "-o", to]);
+    };
+    subdivide("uneven.obj", "3", "at-once.obj");
+    for (first, rest) in [("0", "3"), ("1", "2"), ("2", "1")] {
+        subdivide("uneven.obj", first, "first.obj");
+        subdivide("first.obj", rest, "again.obj");
+        assert_eq!(
+            place.read("at-once.obj"),
+            place.read("again.obj"),
+            "{first} and {rest} levels"
+        );
+    }
+    place.write("p.csv", "face,sub,s,t\n0,0,0.25,0.5\n");
+    let at = |file: &str| {
+        place.ok(&[
+            "limit", file, "--scheme", "hnuss", "--points", "p.csv", "--format", "csv",
+        ])
+    };
+    subdivide("uneven.obj", "0", "first.obj");
+    assert_eq!(at("uneven.obj"), at("first.obj"));
     // level 0 of HNUSS is the hybrid net
     let net = place.json("subdivide cube.obj --scheme hnuss --levels 0");
     assert_eq!((number(&net, "vertices"), number(&net, "faces")), (24.0, 26.0));
@@ -148,7 +176,14 @@ fn what_has_no_rule_is_refused_with_the_element() {
         "spectrum --scheme hnuss --knots 1,2,-3",
         "spectrum --scheme hnuss --knots 0,1,0,1,1",
         "spectrum --scheme eigen-polyhedron --knots 10,1,10,1,10,1",
-        "render cube.obj --schemes hnuss --show shaded -o a.png",
+        "render cube.obj --schemes hnuss --show gauss -o a.png",
+        "render cube.obj --schemes catmull-clark --knots knots.csv -o a.png",
+        "spectrum --scheme hnuss --knots 1,1e308,1e308,1,1",
+        "verify --scheme hnuss:simple --knots 1,1e-70,1",
+        "plot characteristic-map --knots 1,2,-3 -o a.png",
+        "plot spectrum --knots 1,2,3 -o a.png",
+        "plot characteristic-map --knots 1,2,3 -N 4 -o a.png",
+        "plot blending-functions --schemes catmull-clark -o a.png",
     ] {
         let arguments: Vec<&str> = bad.split(' ').collect();
         let run = place.run(&arguments);
@@ -158,6 +193,30 @@ fn what_has_no_rule_is_refused_with_the_element() {
             "{bad}: {}",
             run.stderr
         );
+    }
+}
+
+#[test]
+fn results_do_not_depend_on_threads_and_are_drawn() {
+    let place = place();
+    place.ok(&["make", "ring", "-o", "ring.obj"]);
+    for line in [
+        "blending --knots 7,7,1,1,7 --next 1,1,1,1,1 --levels 3 --format csv",
+        "limit ring.obj --scheme hnuss --vertices --format csv",
+        "render ring.obj --schemes nurss,hnuss,catmull-clark --show reflection --size 64 -o a.png",
+    ] {
+        let with = |threads: &str| {
+            let arguments: Vec<&str> = line.split(' ').chain(["--threads", threads]).collect();
+            let printed = place.ok(&arguments);
+            let picture = if line.contains("a.png") {
+                std::fs::read(place.path().join("a.png")).unwrap()
+            } else {
+                Vec::new()
+            };
+            (printed, picture)
+        };
+        let one = with("1");
+        assert!(one == with("2") && one == with("8"), "{line}");
     }
 }
 
@@ -273,6 +332,56 @@ fn the_lemmas_on_hnuss_are_checked_exactly() {
     let bounded = place.json("verify --scheme hnuss --knots 4,4,1,1,4,4,1,1");
     assert_eq!(check(&bounded, "bounded_curvature_matrix")["status"], "undecided");
     assert_eq!(check(&bounded, "bounded_curvature")["status"], "numerical");
+    // a zero spoke has a further eigenvalue 1/2 outside of the n-gon, and tiny margins are no negative ones
+    let line = "verify --scheme hnuss:simple --knots 0,1,1,2,1 --format json";
+    let run = place.run(&line.split(' ').collect::<Vec<_>>());
+    let zero = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!(check(&zero, "subdominant")["status"], "undecided");
+    let spectrum = place.json("spectrum --scheme hnuss --knots 0,1,1,2,1");
+    let halves = spectrum["eigenvalues"].as_array().unwrap().iter();
+    let halves = halves.filter(|e| (number(e, "re") - 0.5).abs() < 1e-12);
+    assert_eq!(halves.map(|e| e["multiplicity"].as_u64().unwrap()).sum::<u64>(), 3);
+    let far = place.json("verify --scheme hnuss:simple --knots 1e60,1,1,1e-60,1");
+    assert_eq!(far["status"], "proven");
+    let margin = check(&far, "subdominant")["margin"].as_f64().unwrap();
+    assert!((0.0..1e-100).contains(&margin), "{margin:e}");
+    // certificates are stored and checked again: of one set, of several valences, and of all at once
+    place.ok(&[
+        "verify",
+        "--scheme",
+        "hnuss",
+        "--knots",
+        "1,2,1.5,.8,1.2",
+        "-o",
+        "one.json",
+    ]);
+    place.ok(&["verify", "--scheme", "hnuss:simple", "-N", "3,7", "-o", "several"]);
+    let all = place.json("verify --scheme hnuss:simple -N 3.. -o all.json");
+    assert_eq!(
+        (&all["status"], &all["valence"]),
+        (&"proven".into(), &serde_json::Value::Null)
+    );
+    for path in ["one.json", "several", "all.json"] {
+        let rows = place.ok(&["verify", "--recheck", path]);
+        assert!(rows.contains("confirmed") && !rows.contains("NOT"), "{rows}");
+    }
+    let changed = place.read("all.json").replacen("\"proven\"", "\"refuted\"", 1);
+    place.write("all.json", changed);
+    assert_eq!(place.run(&["verify", "--recheck", "all.json"]).code, Some(1));
+    for bad in [
+        "verify --scheme nurss -N 3..",
+        "verify --scheme hnuss -N 5..",
+        "verify --scheme hnuss -N 3.. --knots 1,2,3",
+        "verify --scheme hnuss --knots 1,2,3 --exact",
+    ] {
+        let run = place.run(&bad.split(' ').collect::<Vec<_>>());
+        assert_eq!(
+            (run.code, run.stderr.lines().count()),
+            (Some(2), 1),
+            "{bad}: {}",
+            run.stderr
+        );
+    }
     // what is not proven is not said to be
     for line in [
         "verify --scheme hnuss --knots 0,1,1,2,1",

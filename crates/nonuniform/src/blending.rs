@@ -5,13 +5,10 @@
 //! maximum's depth is how far the function must fall on the way to a higher one. Small ones are rounding of
 //! the net, so that a count is of those that are deeper than a given share of the highest value.
 
-use crate::eigen_polyhedron::left_eigenvectors;
-use crate::primal::around;
-use crate::{EigenPolyhedron, Error, HybridNet, NGon, Net, Outside, Refinement, Scheme, Spokes, Star, nurss};
-use eigenring_spline::intervals::limit;
+use crate::{Error, Limits, Net, Outside, Refinement, Scheme, Spokes, Star};
 
 /// Rings of faces around the vertex: its function reaches three at most.
-const RINGS: usize = 4;
+const RINGS: usize = 3;
 
 /// A maximum of a function.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,8 +22,12 @@ pub struct Peak {
 /// The blending function of an extraordinary vertex at the vertices of a net.
 #[derive(Clone, Debug)]
 pub struct Blending {
-    /// The values at the vertices of the net.
-    pub values: Vec<f64>,
+    net: Net,
+    /// Vertices of the net before all levels.
+    coarse: u32,
+    /// The graph of the function at the vertices of the net: z over the limit (x, y) of a star in the plane,
+    /// whose edges are one long and whose spokes are at equal angles.
+    pub graph: Vec<[f64; 3]>,
     /// The value at the extraordinary vertex.
     pub centre: f64,
     /// The maxima, by falling depth.
@@ -43,25 +44,65 @@ impl Blending {
         let intervals: Vec<Vec<f64>> = pairs.map(|(&d, &a)| vec![d, a]).collect();
         let star = Star::new(&intervals, RINGS)?;
         let mut refinement = Refinement::new(star.mesh(), scheme, Outside::Error).map_err(Error::of_spokes)?;
+        let coarse = refinement.net().topology().vertex_count() as u32;
         for _ in 0..levels {
             refinement.refine().map_err(Error::of_spokes)?;
         }
-        let mut unit = vec![[0.0]; star.mesh().points().len()];
-        unit[0] = [1.0];
-        let points: Vec<f64> = refinement.apply(&unit)?.into_iter().map(|[x]| x).collect();
-        let net = refinement.net();
-        let hybrid = refinement.hybrid();
-        let mut values = Vec::with_capacity(points.len());
-        for vertex in 0..points.len() as u32 {
-            values.push(value(scheme, net, hybrid, &points, vertex)?);
-        }
+        let mut control = star.in_the_plane();
+        control[0][2] = 1.0;
+        let points = refinement.apply(&control)?;
+        let limits = Limits::new(&refinement).map_err(Error::of_spokes)?;
+        let graph: Vec<[f64; 3]> = limits.of(&points)?.into_iter().map(|[point, ..]| point).collect();
+        let (net, hybrid) = (refinement.net(), refinement.hybrid());
         // vertices around a vertex keep its number; the corners of an n-gon have one limit
-        let corner = hybrid.and_then(|net| (0..points.len()).find(|&v| net.ngon_at(v as u32).is_some()));
+        let corner = hybrid.and_then(|net| (0..graph.len()).find(|&v| net.ngon_at(v as u32).is_some()));
+        let values: Vec<f64> = graph.iter().map(|point| point[2]).collect();
         Ok(Blending {
             centre: values[corner.unwrap_or(0)],
             peaks: peaks(net, &values),
-            values,
+            net: net.clone(),
+            coarse,
+            graph,
         })
+    }
+
+    /// The faces of the graph that have an area, by their points.
+    pub fn quads(&self) -> impl Iterator<Item = [u32; 4]> + '_ {
+        let topology = self.net.topology();
+        (0..topology.face_count() as u32).filter_map(|face| {
+            let halves = topology.face_halves(face);
+            let start = halves.start;
+            let has_area = halves.len() == 4 && [start, start + 1].iter().all(|&half| self.net.interval(half) > 0.0);
+            has_area.then(|| [0, 1, 2, 3].map(|k| topology.origin(start + k)))
+        })
+    }
+
+    /// The edges of the net before all levels, as points of the graph.
+    pub fn lines(&self) -> Vec<Vec<u32>> {
+        let topology = self.net.topology();
+        let mut lines = Vec::new();
+        for half in 0..topology.half_count() as u32 {
+            let from = topology.origin(half);
+            if from >= self.coarse || self.net.interval(half) == 0.0 {
+                continue;
+            }
+            let (mut line, mut at) = (vec![from], half);
+            loop {
+                line.push(topology.head(at));
+                if topology.head(at) < self.coarse {
+                    break;
+                }
+                // straight on, along the boundary too
+                let next = topology.next(at);
+                at = topology.twin(next).map_or(next, |twin| topology.next(twin));
+            }
+            // a line is met from both ends, unless it runs along the boundary
+            let ends = [line[0], line[line.len() - 1]];
+            if topology.twin(half).is_none() || ends[0] < ends[1] {
+                lines.push(line);
+            }
+        }
+        lines
     }
 
     /// The maxima beside the highest one that are deeper than this share of it.
@@ -69,58 +110,6 @@ impl Blending {
         let bound = share * self.peaks.first().map_or(0.0, |peak| peak.value);
         self.peaks.iter().skip(1).filter(move |peak| peak.depth > bound)
     }
-}
-
-/// The limit at a vertex; on the boundary, where the function has vanished, the point.
-fn value(scheme: Scheme, net: &Net, hybrid: Option<&HybridNet>, points: &[f64], vertex: u32) -> Result<f64, Error> {
-    let topology = net.topology();
-    let at = |vertex: u32| points[vertex as usize];
-    if net.is_on_boundary(vertex) {
-        return Ok(at(vertex));
-    }
-    if let Some((hybrid, half)) = hybrid.and_then(|hybrid| Some((hybrid, hybrid.ngon_at(vertex)?))) {
-        let face = topology.face(half);
-        let weights = NGon::new(&hybrid.spokes(face))?.limit_weights();
-        let corners = topology.face_halves(face).map(|half| at(topology.origin(half)));
-        return Ok(corners.zip(weights).map(|(x, w)| x * w).sum());
-    }
-    let spokes = topology.fan(vertex).spokes;
-    let places = around(topology, vertex, &spokes);
-    if net.is_irregular(vertex) {
-        let d: Vec<f64> = spokes.iter().map(|&spoke| net.interval(spoke)).collect();
-        let weights = match scheme {
-            Scheme::EigenPolyhedron => EigenPolyhedron::new(&d)?.limit_weights()?,
-            _ => {
-                let matrix = nurss::matrix::<f64>(&Spokes::stationary(d)?)?;
-                let left = left_eigenvectors(&matrix, 1.0)?.swap_remove(0);
-                let sum: f64 = left.iter().sum();
-                left.into_iter().map(|w| w / sum).collect()
-            }
-        };
-        return Ok(places.into_iter().zip(weights).map(|(place, w)| w * at(place)).sum());
-    }
-    let line = |ahead: u32, back: u32| {
-        limit::<f64>([
-            net.beyond(back),
-            net.interval(back),
-            net.interval(ahead),
-            net.beyond(ahead),
-        ])
-    };
-    let (u, v) = (line(spokes[0], spokes[2]), line(spokes[1], spokes[3]));
-    // V, the ends of the spokes, the far corners of the faces between them
-    let weights = [
-        u[1] * v[1],
-        u[2] * v[1],
-        u[1] * v[2],
-        u[0] * v[1],
-        u[1] * v[0],
-        u[2] * v[2],
-        u[0] * v[2],
-        u[0] * v[0],
-        u[2] * v[0],
-    ];
-    Ok(places.into_iter().zip(weights).map(|(place, w)| w * at(place)).sum())
 }
 
 /// The maxima of values at the vertices of a net, where the vertices of a face are neighbours: vertices are

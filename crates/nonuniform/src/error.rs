@@ -27,7 +27,7 @@ pub enum Error {
         least: usize,
     },
     /// An interval that is none.
-    #[error("the knot interval of {what} is {value}: accepted are finite numbers from 0")]
+    #[error("the knot interval of {what} is {value}: accepted are 0 and numbers from 1e-60 to 1e60")]
     Interval {
         /// Of which element.
         what: String,

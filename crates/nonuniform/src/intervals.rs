@@ -1,9 +1,10 @@
 //! Knot intervals on the edges of a mesh.
 
 use crate::error::{Error, Marked};
+use eigenring_scheme::is_interval;
 use eigenring_surface::Topology;
 
-/// One interval for each edge: finite, not negative, and the same on opposite edges of a quad, that is on
+/// One interval for each edge: 0 or 1e-60 to 1e60, and the same on opposite edges of a quad, that is on
 /// each *strip* of quads. Around a face of another size the edges before and after each edge have one
 /// interval, since its split makes them opposite.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,7 +26,7 @@ impl KnotIntervals {
             let Some(number) = find(topology, edge) else {
                 return Err(Error::NoSuchEdge(edge));
             };
-            if !(value.is_finite() && value >= 0.0) {
+            if !is_interval(value) {
                 return Err(Error::Interval {
                     what: format!("edge {}-{}", edge[0], edge[1]),
                     value,

@@ -41,9 +41,10 @@ fn ratio(p: i64, q: i64) -> BigRational {
 /// n alpha_i, exactly: quotients of doubles.
 fn scaled_alpha(d: &[f64]) -> Result<Vec<BigRational>, Error> {
     let face = SplitFace::<Exact>::new(d)?;
+    // arithmetic of rational numbers ends in a rational one, or in none where it is too long: nothing is
+    // proven then, since -1 is no n alpha
     let rational = face.alpha.iter().map(Exact::as_rational);
-    // arithmetic of rational numbers ends in a rational one, or in none where it is too long
-    Ok(rational.map(|alpha| alpha.unwrap_or_else(BigRational::zero)).collect())
+    Ok(rational.map(|alpha| alpha.unwrap_or_else(|| ratio(-1, 1))).collect())
 }
 
 /// Lemma 1: the lesser of min n alpha and 1 - max n alpha, by which all eigenvalues after 1, 1/2, 1/2 stay
@@ -57,10 +58,11 @@ pub fn gap_bound(d: &[f64]) -> Result<BigRational, Error> {
     Ok(gaps.fold(ratio(1, 2), BigRational::min))
 }
 
-/// Whether all eigenvalues after 1, 1/2, 1/2 are proven to be below 1/2 in modulus: mu is a mean of the
+/// Whether all eigenvalues of Q_n after 1, 1/2, 1/2 are proven to be below 1/2 in modulus: mu is a mean of the
 /// n alpha over a vector that is orthogonal to the Fourier modes 0 and +-1. It is 0 or 1 only if that vector
 /// lives where n alpha is 0, or where it is 1, and on three places or fewer no vector but 0 is orthogonal to
-/// the three.
+/// the three. With positive intervals spokes and sectors add 1/4 and less; a zero spoke, whose line across is
+/// a triple knot, adds a further 1/2 outside of the n-gon, of which this says nothing.
 ///
 /// # Errors
 /// Those of [`SplitFace::new`].
@@ -106,6 +108,19 @@ pub fn polygon_is_an_eigenvector(d: &[f64]) -> Result<bool, Error> {
         }
     }
     Ok(true)
+}
+
+/// Whether the beta_i sum to 1 for every n and all intervals: numerators and denominator are sums of products
+/// `d_(i+a) d_(i+b)`, which over all i depend on |a - b| alone.
+pub fn beta_sums_to_one() -> bool {
+    let count = |pairs: &[[i64; 2]]| -> Vec<i64> {
+        let mut gaps: Vec<i64> = pairs.iter().map(|[a, b]| (a - b).abs()).collect();
+        gaps.sort_unstable();
+        gaps
+    };
+    let numerators = [[-1, 2], [3, 2], [-2, -1], [2, -1]];
+    let denominator = [[0, -1], [0, 3], [2, -1], [2, 3]];
+    count(&numerators) == count(&denominator)
 }
 
 /// A point of a sector, or a Bernstein coefficient: its parts of p, v and w.
@@ -383,6 +398,18 @@ mod tests {
         close(&second[2], 2, &[near, far]);
         close(&second[3], 2, &limit::<f64>([1.0; 4]));
         assert_eq!(first[3], second[0]);
+    }
+
+    #[test]
+    fn sums_are_one_for_all_and_for_each() {
+        assert!(beta_sums_to_one());
+        for d in [
+            &[1.0, 2.0, 1.5][..],
+            &[1.0, 2.0, 1.5, 0.8],
+            &[1.0, 2.0, 1.5, 0.8, 1.2, 1e-3, 7.0],
+        ] {
+            assert!(rows_sum_to_one(d).unwrap(), "{d:?}");
+        }
     }
 
     #[test]

@@ -1,12 +1,14 @@
 //! Subdivision surfaces with knot intervals.
 
 mod blending;
+mod characteristic;
 pub mod eigen_polyhedron;
 mod error;
 pub mod first_level;
 mod hybrid;
 mod intervals;
 pub mod lemmas;
+mod limits;
 mod net;
 pub mod ngon;
 pub mod nurss;
@@ -18,11 +20,13 @@ mod star;
 mod surface;
 
 pub use blending::{Blending, Peak};
-pub use eigen_polyhedron::EigenPolyhedron;
+pub use characteristic::CharacteristicMap;
+pub use eigen_polyhedron::{EigenPolyhedron, safe_ratio};
 pub use error::{Error, MAX_SPOKES, Marked};
 pub use first_level::FirstLevel;
 pub use hybrid::{Converted, HybridNet, Outside};
 pub use intervals::KnotIntervals;
+pub use limits::{Limits, VertexLimit};
 pub use net::Net;
 pub use ngon::NGon;
 pub use primal::{Step, eigen_polyhedron_step, nurss_step};

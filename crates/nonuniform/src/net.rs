@@ -3,6 +3,7 @@
 use crate::intervals::KnotIntervals;
 use crate::{Error, Spokes};
 use eigenring_surface::{Features, Mesh, Point3, Topology};
+use std::collections::BTreeSet;
 
 /// A mesh with knot intervals on its edges; where its points are does not matter here.
 #[derive(Clone, Debug)]
@@ -79,6 +80,46 @@ impl Net {
             self.marked[vertex as usize] = true;
         }
         Ok(self)
+    }
+
+    /// The faces around a vertex in so many rings as a net, with the numbers of its vertices in this one.
+    pub(crate) fn part(&self, centre: u32, rings: usize) -> Result<(Net, Vec<u32>), Error> {
+        let topology = &self.topology;
+        let (mut vertices, mut faces) = (BTreeSet::from([centre]), BTreeSet::new());
+        for _ in 0..rings {
+            for &vertex in &vertices {
+                let spokes = topology.fan(vertex).spokes;
+                faces.extend(spokes.into_iter().map(|spoke| topology.face(spoke)));
+            }
+            let corners = faces.iter().flat_map(|&face| topology.face_halves(face));
+            vertices.extend(corners.map(|half| topology.origin(half)));
+        }
+        let originals: Vec<u32> = vertices.into_iter().collect();
+        let mut mesh = Mesh::of_points(vec![Point3::origin(); originals.len()]);
+        let mut intervals = Vec::new();
+        for &face in &faces {
+            let halves = topology.face_halves(face);
+            let number = |half: u32| originals.binary_search(&topology.origin(half)).unwrap_or(0) as u32;
+            mesh.push_face(&halves.clone().map(number).collect::<Vec<u32>>())?;
+            intervals.extend(halves.map(|half| self.interval(half)));
+        }
+        let topology = Topology::unchecked(&mesh);
+        let known = KnotIntervals::known(&topology, |half| intervals[half as usize]);
+        Ok((Net::known(mesh, topology, known), originals))
+    }
+
+    /// Refuses faces that are no quads.
+    pub(crate) fn check_quads(&self) -> Result<(), Error> {
+        let topology = &self.topology;
+        let odd = (0..topology.face_count() as u32).find(|&face| topology.face_size(face) != 4);
+        match odd {
+            None => Ok(()),
+            Some(face) => Err(Error::Vertex {
+                vertex: topology.origin(topology.face_halves(face).start),
+                what: format!("belongs to face {face} of {} corners", topology.face_size(face)),
+                accepted: "are quads; one level of NURSS makes them of all faces",
+            }),
+        }
     }
 
     /// The faces, with points as they were given or unset.

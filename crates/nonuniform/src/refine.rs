@@ -85,6 +85,7 @@ pub struct Refinement {
     /// As in [`Refined`].
     pub simple: Vec<u32>,
     levels: usize,
+    split: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -94,7 +95,8 @@ enum Current {
 }
 
 impl Refinement {
-    /// Begins with a mesh. HNUSS makes its hybrid net, after one level of NURSS where faces are no quads.
+    /// Begins with a mesh. HNUSS makes its hybrid net, after one level of NURSS where faces are no quads; a
+    /// hybrid net stays what it is.
     ///
     /// # Errors
     /// Those of [`Net::new`] and [`HybridNet::of`].
@@ -106,9 +108,15 @@ impl Refinement {
             current: Current::Primal(net.clone()),
             simple: Vec::new(),
             levels: 0,
+            split: false,
         };
         if let Scheme::Hnuss(rule) = scheme {
-            if !mesh.is_quads() {
+            if let Some(hybrid) = HybridNet::again(&net) {
+                refinement.current = Current::Hybrid(hybrid);
+                return Ok(refinement);
+            }
+            refinement.split = !net.mesh().is_quads();
+            if refinement.split {
                 let step = nurss_step(&net)?;
                 refinement.tables.push(step.table);
                 net = step.net;
@@ -119,6 +127,13 @@ impl Refinement {
             refinement.current = Current::Hybrid(converted.net);
         }
         Ok(refinement)
+    }
+
+    /// The same net as one of a later level, of which nothing is known before it.
+    pub(crate) fn at_a_later_level(mut self) -> Self {
+        self.tables.clear();
+        self.levels = self.levels.max(1);
+        self
     }
 
     /// One level more.
@@ -143,6 +158,21 @@ impl Refinement {
         self.current = next;
         self.levels += 1;
         Ok(())
+    }
+
+    /// The scheme.
+    pub fn scheme(&self) -> Scheme {
+        self.scheme
+    }
+
+    /// How many levels were made.
+    pub fn levels(&self) -> usize {
+        self.levels
+    }
+
+    /// Whether a level of NURSS came before the hybrid net, since faces were no quads.
+    pub fn is_split(&self) -> bool {
+        self.split
     }
 
     /// The last net.

@@ -42,4 +42,15 @@ impl Row {
     pub fn terms(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
         self.0.iter().copied().filter(|(_, weight)| *weight != 0.0)
     }
+
+    /// The combination of points with any numbers.
+    pub fn applied<const D: usize>(&self, points: &[[f64; D]]) -> [f64; D] {
+        let mut sum = [0.0; D];
+        for &(point, weight) in &self.0 {
+            for (sum, x) in sum.iter_mut().zip(points[point as usize]) {
+                *sum += weight * x;
+            }
+        }
+        sum
+    }
 }

@@ -2,9 +2,10 @@
 
 use crate::Error;
 use crate::error::MAX_SPOKES;
+use eigenring_scheme::is_interval;
 
 /// The intervals `d_i` of the edges V-E_i around a vertex V, and `a_i` of the next edges outward,
-/// counter-clockwise and with indices mod n: finite numbers from 0, at three spokes or more.
+/// counter-clockwise and with indices mod n: 0 or 1e-60 to 1e60, at three spokes or more.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spokes {
     d: Vec<f64>,
@@ -25,7 +26,7 @@ impl Spokes {
             });
         }
         for (of, intervals) in [("spoke", &d), ("the edge beyond spoke", &a)] {
-            if let Some(i) = intervals.iter().position(|x| !(x.is_finite() && *x >= 0.0)) {
+            if let Some(i) = intervals.iter().position(|&x| !is_interval(x)) {
                 return Err(Error::Interval {
                     what: format!("{of} {i}"),
                     value: intervals[i],

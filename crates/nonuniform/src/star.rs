@@ -6,7 +6,7 @@
 
 use crate::{Error, Net, Scheme, eigen_polyhedron_step, nurss_step};
 use eigenring_scheme::families::{sector_lines, with_intervals};
-use eigenring_scheme::{Centre, Corner, Fan, Lattice, Level, Pass, Site, Stencil};
+use eigenring_scheme::{Centre, Corner, Fan, Lattice, Level, Pass, Scalar, Site, Stencil};
 use eigenring_surface::features::edge;
 use eigenring_surface::{Mesh, Point3};
 
@@ -62,6 +62,23 @@ impl Star {
     /// Its mesh, with points at the origin.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
+    }
+
+    /// Points in the plane z = 0, with spokes at equal angles and steps of 1.
+    pub fn in_the_plane(&self) -> Vec<[f64; 3]> {
+        let spoke = |i: usize| {
+            let turn = |f: fn(i64, i64) -> f64| f(i as i64, self.sectors as i64);
+            [turn(f64::cos_turn), turn(f64::sin_turn)]
+        };
+        let mut points = vec![[0.0; 3]; self.mesh.points().len()];
+        for sector in 0..self.sectors {
+            let (own, next) = (spoke(sector), spoke(sector + 1));
+            for (a, b) in (1..=self.rings).flat_map(|a| (0..=self.rings).map(move |b| (a, b))) {
+                let at = [0, 1].map(|k| a as f64 * own[k] + b as f64 * next[k]);
+                points[self.point(sector, a, b) as usize] = [at[0], at[1], 0.0];
+            }
+        }
+        points
     }
 
     /// The site of each point.

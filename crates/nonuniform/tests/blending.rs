@@ -80,14 +80,31 @@ fn cube() -> Mesh {
 
 #[test]
 fn closed_meshes_keep_what_they_are() {
-    let mesh = cube();
+    // eight adjacent irregular vertices, and eight around a block, whose lines cross all around a ring
+    let ring = shapes::ring();
+    for (mesh, genus) in [(cube(), 0), (ring, 1)] {
+        closed_mesh_keeps_what_it_is(&mesh, genus);
+    }
+}
+
+fn closed_mesh_keeps_what_it_is(mesh: &Mesh, genus: i64) {
     for scheme in SCHEMES {
-        let mut refinement = Refinement::new(&mesh, scheme, Outside::Error).unwrap();
-        for level in 0..4 {
+        let mut refinement = Refinement::new(mesh, scheme, Outside::Error).unwrap();
+        if let Some(hybrid) = refinement.hybrid() {
+            let net = hybrid.net();
+            let topology = net.topology();
+            let crossings = (0..topology.face_count() as u32).filter(|&face| {
+                let halves = topology.face_halves(face);
+                halves.len() == 4 && halves.clone().all(|half| net.interval(half) == 0.0)
+            });
+            assert_eq!(crossings.count() > 0, genus == 1);
+            assert_eq!(hybrid.extraordinary_faces().count(), 8);
+        }
+        for level in 0..4 - genus {
             let net = refinement.net();
             let topology = net.topology();
             let euler = topology.vertex_count() as i64 - topology.edge_count() as i64 + topology.face_count() as i64;
-            assert_eq!(euler, 2, "{scheme} {level}");
+            assert_eq!(euler, 2 - 2 * genus, "{scheme} {level}");
             if refinement.hybrid().is_some() {
                 assert!(
                     (0..topology.vertex_count() as u32).all(|v| net.valence(v) == 4),
@@ -124,6 +141,25 @@ fn closed_meshes_keep_what_they_are() {
             .fold(0.0, f64::max);
         assert!(gap < 1e-13 * 10.0, "{scheme}: {gap:e}");
         assert!(Topology::new(&a).is_ok());
+        // a net with its intervals goes on as if it had not been written
+        let more = |mesh: &Mesh, levels: usize| refined(mesh, scheme, levels, Outside::Error).unwrap().mesh;
+        let first = more(&noisy, 1);
+        let (at_once, again) = match scheme {
+            // the first level is another one than those after it
+            Scheme::EigenPolyhedron => continue,
+            _ => (more(&noisy, 3), more(&first, 2)),
+        };
+        let bits = |mesh: &Mesh| {
+            mesh.points()
+                .iter()
+                .flat_map(|p| [p.x, p.y, p.z].map(f64::to_bits))
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(bits(&at_once), bits(&again), "{scheme}");
+        assert_eq!(
+            (at_once.corners(), &at_once.features.knots),
+            (again.corners(), &again.features.knots)
+        );
     }
 }
 

@@ -217,16 +217,12 @@ fn smallest_gaps(sets: usize) -> Vec<f64> {
     gaps
 }
 
-/// How many sets of each ratio are looked at: `scripts/lemma-1.sh` asks for 20 000.
-fn sets() -> usize {
-    let asked = std::env::var("EIGENRING_LEMMA_1_SETS").ok();
-    asked.and_then(|count| count.parse().ok()).unwrap_or(720)
-}
+/// Sets of each ratio; `results/nonuniform/lemma-1.csv` has 20 000.
+const SETS: usize = 720;
 
 #[test]
 fn the_ngon_has_the_spectrum_of_lemma_1() {
-    let gaps = smallest_gaps(sets());
-    println!("smallest gaps at ratios 2, 10, 100, 1e4, 1e6: {gaps:?}");
+    let gaps = smallest_gaps(SETS);
     // of the order of the design's: far from 0 at ratio 2, and falling
     assert!(
         gaps[0] > 0.1 && gaps.windows(2).all(|pair| pair[1] < pair[0]),
@@ -411,5 +407,37 @@ fn the_improved_rule_has_the_limit_and_the_tangent_plane_of_the_eigen_polyhedron
                 "n = {n} {angle:e}"
             );
         }
+    }
+}
+
+/// On the net of a star a characteristic map is a multiple of itself at the next level: faces of the first
+/// ring, refined, are those of both rings, scaled.
+#[test]
+fn characteristic_maps_are_multiples_of_themselves() {
+    use eigenring_nonuniform::CharacteristicMap;
+    for (scheme, d) in [
+        ("nurss", vec![1.0, 2.0, 1.5, 0.8, 1.2]),
+        ("eigen-polyhedron", vec![1.0, 2.0, 1.5, 0.8, 1.2]),
+        ("eigen-polyhedron", vec![1.0, 3.0, 2.0]),
+        ("hnuss", vec![1.0, 10.0, 1.0, 1.0, 3.0, 1.0, 7.0]),
+        ("hnuss", vec![1.0, 2.0, 3.0]),
+        ("nurss", vec![1.0, 2.0, 3.0, 1.0]),
+    ] {
+        let scheme: eigenring_nonuniform::Scheme = scheme.parse().unwrap();
+        let [fine, coarse] = [2, 1].map(|levels| CharacteristicMap::new(scheme, &d, levels).unwrap());
+        for sector in 0..d.len() {
+            for face in 0..4 {
+                // the face at place (a, b) has become quarter 0, 1, 3, 2 of the first
+                let quarter = 16 * 4 * sector + 4 * [0, 1, 3, 2][face];
+                let parts = &fine.cells[quarter..quarter + 4];
+                for cell in &coarse.cells[4 * (4 * sector + face)..][..4] {
+                    let scaled = cell.map(|p| [p[0] * fine.factors[0], p[1] * fine.factors[1]]);
+                    let near = |p: &[f64; 2], q: &[f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]) < 1e-11;
+                    let is = |part: &[[f64; 2]; 4]| scaled.iter().all(|p| part.iter().any(|q| near(p, q)));
+                    assert!(parts.iter().any(is), "{scheme} {d:?} {sector} {face}");
+                }
+            }
+        }
+        assert!(fine.jacobians.iter().all(|jacobian| *jacobian > 0.0), "{scheme} {d:?}");
     }
 }

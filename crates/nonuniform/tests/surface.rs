@@ -5,6 +5,7 @@ use crate::common::{Sequence, cases};
 use crate::meshes::mesh_of;
 use eigenring_nonuniform::{FirstLevel, NGon, Outside, Refinement, Scheme, Star, Surface};
 use eigenring_spline::intervals::limit;
+use eigenring_surface::features::edge;
 use eigenring_surface::{Mesh, Point3, Topology, Vector3};
 
 /// Derivatives by the parameters of one corner in those of another.
@@ -247,5 +248,124 @@ fn curvature_is_bounded_with_coplanar_corners_alone() {
             let expected = (4.0 * lambda).powi(8);
             assert!((growth / expected - 1.0).abs() < 0.3, "{growth} {expected}");
         }
+    }
+}
+
+/// Limits and tangent planes at the vertices of refined hybrid nets against evaluation of patches.
+#[test]
+fn limits_at_vertices_are_points_of_the_surface() {
+    use eigenring_nonuniform::Limits;
+    let (_, mesh) = star(5, 7, 2.5);
+    let surface = Surface::new(&mesh, FirstLevel::Improved, Outside::Error).unwrap();
+    let scheme = Scheme::Hnuss(FirstLevel::Improved);
+    let refinement = Refinement::new(&mesh, scheme, Outside::Error).unwrap();
+    let points: Vec<[f64; 3]> = mesh.points().iter().map(|p| [p.x, p.y, p.z]).collect();
+    let limits = Limits::new(&refinement)
+        .unwrap()
+        .of(&refinement.apply(&points).unwrap())
+        .unwrap();
+    let net = refinement.net();
+    let mut count = 0;
+    for face in 0..mesh.face_count() as u32 {
+        let start = net.topology().face_halves(face).start;
+        let [a, b] = surface.sides(face).unwrap();
+        for (k, [u, v]) in [[0.0, 0.0], [a, 0.0], [a, b], [0.0, b]].into_iter().enumerate() {
+            let sample = surface.at(face, u, v).unwrap();
+            let [at, s, t] = limits[net.topology().origin(start + k as u32) as usize].map(vector);
+            assert!((sample.position.coords - at).norm() < 1e-12, "face {face}, corner {k}");
+            let normal = s.cross(&t).normalize();
+            assert!(
+                sample.normal.unwrap().cross(&normal).norm() < 1e-9,
+                "face {face}, corner {k}"
+            );
+            count += 1;
+        }
+    }
+    assert_eq!(count, 4 * 5 * 9);
+}
+
+/// Limits of NURSS and of eigen-polyhedra do not move when the net is refined once more.
+#[test]
+fn limits_stay_under_refinement() {
+    use eigenring_nonuniform::Limits;
+    for (n, scheme) in [
+        (5, Scheme::Nurss),
+        (5, Scheme::EigenPolyhedron),
+        (3, Scheme::Nurss),
+        (6, Scheme::EigenPolyhedron),
+    ] {
+        let (_, mesh) = star(n, 11, 2.5);
+        let points: Vec<[f64; 3]> = mesh.points().iter().map(|p| [p.x, p.y, p.z]).collect();
+        let mut refinement = Refinement::new(&mesh, scheme, Outside::Error).unwrap();
+        let mut before: Vec<[[f64; 3]; 3]> = Vec::new();
+        for level in 0..4 {
+            let limits = Limits::new(&refinement)
+                .unwrap()
+                .of(&refinement.apply(&points).unwrap())
+                .unwrap();
+            for (vertex, (old, new)) in before.iter().zip(&limits).enumerate() {
+                let ([p, s, t], [q, u, v]) = (old.map(vector), new.map(vector));
+                assert!(
+                    (p - q).norm() < 1e-11,
+                    "{scheme} level {level} vertex {vertex}: {:e}",
+                    (p - q).norm()
+                );
+                let planes = s.cross(&t).normalize().cross(&u.cross(&v).normalize());
+                assert!(
+                    planes.norm() < 1e-8,
+                    "{scheme} level {level} vertex {vertex}: {:e}",
+                    planes.norm()
+                );
+            }
+            before = limits;
+            refinement.refine().unwrap();
+        }
+    }
+}
+
+/// A spoke without width that ends at the boundary: points beside the vertex are limits of refined nets.
+#[test]
+fn zero_spokes_may_lead_to_the_boundary() {
+    use eigenring_nonuniform::Limits;
+    for n in [4, 5, 6] {
+        let (whole, full) = star(n, 3, 2.0);
+        // the faces beyond the first edge of spoke 0 are left out
+        let mut mesh = Mesh::of_points(full.points().to_vec());
+        for (face, corners) in full.faces().enumerate() {
+            let (sector, b, a) = (face / 9, face / 3 % 3, face % 3);
+            if !(sector == 0 && a > 0 || sector == n - 1 && b > 0) {
+                mesh.push_face(corners).unwrap();
+            }
+        }
+        let first = edge(0, whole.point(0, 1, 0));
+        mesh.features.knots = full.features.knots.clone();
+        mesh.features.knots.retain(|pair, _| *pair != first);
+        for outer in [1, 2].map(|a| edge(whole.point(0, a, 0), whole.point(0, a + 1, 0))) {
+            mesh.features.knots.remove(&outer);
+        }
+        mesh.features.knots.insert(first, 0.0);
+        let mesh = mesh.without_unused();
+        let surface = Surface::new(&mesh, FirstLevel::Simple, Outside::Error).unwrap();
+        let mut refinement = Refinement::new(&mesh, Scheme::Hnuss(FirstLevel::Simple), Outside::Error).unwrap();
+        (0..4).for_each(|_| refinement.refine().unwrap());
+        let points: Vec<[f64; 3]> = mesh.points().iter().map(|p| [p.x, p.y, p.z]).collect();
+        let limits = Limits::new(&refinement)
+            .unwrap()
+            .of(&refinement.apply(&points).unwrap())
+            .unwrap();
+        let mut count = 0;
+        for face in 0..mesh.face_count() as u32 {
+            let Ok([a, b]) = surface.sides(face) else { continue };
+            for (s, t) in [(0.5, 0.5), (0.25, 0.125), (0.0625, 0.0), (0.125, 0.0625), (1.0, 0.25)] {
+                let found = surface.at(face, s * a, t * b).unwrap().position.coords;
+                let gap = limits
+                    .iter()
+                    .map(|[p, ..]| (vector(*p) - found).norm())
+                    .fold(f64::INFINITY, f64::min);
+                assert!(gap < 1e-12, "n = {n}, face {face} ({s}, {t}): {gap:e}");
+                count += 1;
+            }
+        }
+        assert!(count > 5 * 4 * (n - 2), "{count}");
     }
 }

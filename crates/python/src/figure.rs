@@ -172,6 +172,7 @@ pub fn figure(
             range: (0.15, 0.9),
             width: entry.width,
             sweep: None,
+            knots: None,
             studies: &Studies::load(None, needed, reporter)?,
             tuner: &tuner,
         };

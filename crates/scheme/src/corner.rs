@@ -130,6 +130,12 @@ pub struct Corner {
     steps: Option<usize>,
 }
 
+/// Whether a number is a knot interval that rules take: 0, or a number from 1e-60 to 1e60, so that products of
+/// four, which rules form, are doubles.
+pub fn is_interval(value: f64) -> bool {
+    value == 0.0 || (1e-60..=1e60).contains(&value)
+}
+
 impl Corner {
     /// A closed fan of `sectors` sectors, the same all round.
     ///
@@ -209,7 +215,7 @@ impl Corner {
     pub fn with_intervals(mut self, intervals: &[f64], next: &[f64]) -> Result<Self, Error> {
         let spokes = self.spokes.len();
         for list in [intervals, next] {
-            let bad = list.iter().position(|d| !(d.is_finite() && *d >= 0.0));
+            let bad = list.iter().position(|&d| !is_interval(d));
             if list.len() != spokes || bad.is_some() {
                 return Err(Error::Intervals {
                     found: list.len(),

@@ -94,7 +94,7 @@ pub enum Error {
         maximum: usize,
     },
     /// Knot intervals are given for each spoke.
-    #[error("{}: accepted are exactly {expected} finite numbers, none negative", intervals(*found, *bad))]
+    #[error("{}: accepted are exactly {expected} numbers, each 0 or from 1e-60 to 1e60", intervals(*found, *bad))]
     Intervals {
         /// How many are given.
         found: usize,

@@ -45,7 +45,7 @@ mod stencil;
 mod table;
 pub mod user;
 
-pub use corner::{Centre, Corner, MAX_SECTORS, Shape, Spoke};
+pub use corner::{Centre, Corner, MAX_SECTORS, Shape, Spoke, is_interval};
 pub use definition::Definition;
 /// The number types that rules are generic over.
 pub use eigenring_spline::{BigRational, Complex, Dual, Same, Scalar};

@@ -222,6 +222,82 @@ pub fn gear(n: usize) -> Mesh {
     mesh(points, faces)
 }
 
+/// A ring with a stone: a torus with a block of two by two quads raised from its outside, whose corners have
+/// valence 5 below and 3 above. Knot intervals are 3 along and across the block, and 1 elsewhere.
+pub fn ring() -> Mesh {
+    let (around, across) = (16, 8);
+    let point = |i: usize, j: usize| {
+        let (turn, (sin, cos)) = (i as f64 / around as f64, (TAU * j as f64 / across as f64).sin_cos());
+        on_circle(2.0 + 0.55 * cos, turn, 0.55 * sin)
+    };
+    let at = |i: usize, j: usize| (i % around * across + j % across) as u32;
+    let mut points: Vec<Point3<f64>> = (0..around * across).map(|k| point(k / across, k % across)).collect();
+    // the block stands on quads i = 0, 1 and j = -1, 0, of which the middle looks along the x axis
+    let first = around - 1;
+    let raised = |i: usize, j: usize| {
+        let foot = points[at(first + i, across - 1 + j) as usize];
+        Point3::new(3.15 - 0.1 * (foot.y.abs() + foot.z.abs()), 0.8 * foot.y, 0.8 * foot.z)
+    };
+    let top: Vec<Point3<f64>> = (0..9).map(|k| raised(k / 3, k % 3)).collect();
+    let above = |i: usize, j: usize| (around * across + 3 * i + j) as u32;
+    points.extend(top);
+    let on_block = |i: usize, j: usize| (i == around - 1 || i == 0) && (j == across - 1 || j == 0);
+    let mut faces = Vec::new();
+    for (i, j) in (0..around).flat_map(|i| (0..across).map(move |j| (i, j))) {
+        if !on_block(i, j) {
+            faces.push(vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
+        }
+    }
+    for (i, j) in (0..2).flat_map(|i| (0..2).map(move |j| (i, j))) {
+        faces.push(vec![above(i, j), above(i + 1, j), above(i + 1, j + 1), above(i, j + 1)]);
+    }
+    let foot = |i: usize, j: usize| at(first + i, across - 1 + j);
+    // the rim of the block, counter-clockwise
+    let rim = [(0, 0), (1, 0), (2, 0), (2, 1), (2, 2), (1, 2), (0, 2), (0, 1)];
+    for (k, &(i, j)) in rim.iter().enumerate() {
+        let (a, b) = rim[(k + 1) % rim.len()];
+        faces.push(vec![foot(i, j), foot(a, b), above(a, b), above(i, j)]);
+    }
+    let mut mesh = mesh(points, faces);
+    for k in 0..2 {
+        mesh.features
+            .knots
+            .insert(crate::features::edge(above(k, 0), above(k + 1, 0)), 3.0);
+        mesh.features
+            .knots
+            .insert(crate::features::edge(above(0, k), above(0, k + 1)), 3.0);
+    }
+    mesh.without_unused()
+}
+
+/// A helmet: the upper part of a box with a crest, bent to a dome. Corners have valence 3, the ends of the
+/// crest's foot valence 5. Knot intervals are 8 across the crest, and 1 elsewhere.
+pub fn helmet() -> Mesh {
+    let block = (0..6).flat_map(|i| (0..5).flat_map(move |j| (0..3).map(move |k| [i, j, k])));
+    let crest = (1..5).map(|i| [i, 2, 3]);
+    let mut mesh = cubes(block.chain(crest));
+    let low = |mesh: &Mesh, face: &[u32]| face.iter().all(|&v| mesh.points()[v as usize].z == 0.0);
+    let faces: Vec<Vec<u32>> = mesh
+        .faces()
+        .filter(|face| !low(&mesh, face))
+        .map(<[u32]>::to_vec)
+        .collect();
+    let number = |mesh: &Mesh, p: [f64; 3]| mesh.points().iter().position(|q| *q == Point3::from(p));
+    let knot = [2.0, 3.0].map(|y| number(&mesh, [2.0, y, 4.0]).unwrap_or(0) as u32);
+    for p in mesh.points_mut() {
+        let raised = (p.z - 3.0).max(0.0);
+        // from a box to a ball: a direction and the largest coordinate
+        let q = nalgebra::Vector3::new((p.x - 3.0) / 3.0, (p.y - 2.5) / 2.5, p.z.min(3.0) / 3.0);
+        let ball = q.normalize() * q.amax();
+        let bent = 0.25 * q + 0.75 * ball;
+        let out = 1.0 + 0.16 * raised;
+        *p = Point3::new(3.0 * bent.x * out, 2.3 * bent.y, 2.6 * bent.z * out);
+    }
+    let mut made = self::mesh(mesh.points().to_vec(), faces);
+    made.features.knots.insert(crate::features::edge(knot[0], knot[1]), 8.0);
+    made.without_unused()
+}
+
 /// The middle of three points' quads: split `n x n`, bilinearly.
 fn split(coarse: &Mesh, n: usize) -> Mesh {
     let mut numbers: BTreeMap<Vec<(u32, usize)>, u32> = BTreeMap::new();

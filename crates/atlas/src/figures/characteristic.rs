@@ -11,7 +11,7 @@
 use super::grid::{Grid, NARROWEST, narrowest};
 use super::sheet::{MapPoint, Sheet, common_inner};
 use super::subject::{Subject, chosen, tell};
-use super::{Drawing, FigureEntry, Inputs, points};
+use super::{Drawing, FigureEntry, Inputs, points, uneven};
 use crate::error::Error;
 use eigenring_figure::{Chart, Colour, ColourMap, ColourScale, Figure, Panel, Side, Stroke, Style};
 
@@ -19,6 +19,7 @@ pub const ENTRY: FigureEntry = FigureEntry {
     valences: &[3, 5, 8, 20],
     schemes: Some(&["catmull-clark", "lambda:optimal"]),
     colours: Some((0.0, 3.0)),
+    knots: true,
     ..FigureEntry::new(
         "characteristic-map",
         "patches of the characteristic maps coloured by the Jacobian; columns: valences, rows: schemes",
@@ -54,6 +55,9 @@ pub fn resolution(patches: usize, cells: f64) -> usize {
 }
 
 fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
+    if let Some(spokes) = inputs.knots {
+        return uneven::build(&ENTRY, inputs, spokes);
+    }
     let columns = inputs.valences.iter().map(|&valence| chosen(inputs, valence));
     let columns: Vec<Vec<Subject>> = columns.collect::<Result<_, _>>()?;
     let inner = common_inner(columns.iter().flatten().map(|subject| &subject.scheme))?;

@@ -168,6 +168,7 @@ mod tests {
             range: (0.15, 0.9),
             width: Width::One,
             sweep: None,
+            knots: None,
             studies: &studies,
             tuner: &Tuner::default(),
         };

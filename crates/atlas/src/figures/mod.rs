@@ -8,6 +8,7 @@
 //! drawing comes with the tables of the numbers it shows, which are what tests compare.
 
 mod along;
+mod blending;
 mod certificates;
 mod characteristic;
 mod characteristic_meshes;
@@ -29,6 +30,7 @@ mod studies;
 mod subject;
 mod sweep;
 mod tension_curves;
+mod uneven;
 mod valences;
 mod weighting;
 
@@ -39,6 +41,7 @@ use crate::schemes::{SchemeName, Tuner};
 use crate::sweep::Sweep;
 use crate::table::Table;
 use eigenring_figure::{Figure, Width};
+use eigenring_nonuniform::Spokes;
 use eigenring_scheme::did_you_mean;
 
 /// A picture with its data.
@@ -80,6 +83,8 @@ pub struct Inputs<'a> {
     pub width: Width,
     /// The parameter of scheme files along which the figure is drawn, if it is one.
     pub sweep: Option<&'a Sweep>,
+    /// The knot intervals around a vertex, if the figure takes them and they are given.
+    pub knots: Option<&'a Spokes>,
     /// Samples and splines of the lambda-scheme.
     pub studies: &'a Studies,
     /// Where members of the lambda-scheme that are not tabulated come from.
@@ -115,6 +120,10 @@ pub struct FigureEntry {
     pub range: bool,
     /// Whether it can be drawn along a parameter of scheme files.
     pub sweep: bool,
+    /// Whether it takes knot intervals.
+    pub knots: bool,
+    /// Whether its schemes are those with knot intervals, whether these are given or not.
+    pub uneven: bool,
     /// Whether it needs the studies of its valences.
     pub studies: bool,
     /// Whether regions are shaded by the stored certificates, if there are any.
@@ -141,6 +150,7 @@ pub const FIGURES: &[FigureEntry] = &[
     spectra::ENTRY,
     tension_curves::ENTRY,
     certificates::ENTRY,
+    blending::ENTRY,
 ];
 
 impl FigureEntry {
@@ -161,6 +171,8 @@ impl FigureEntry {
             colours: None,
             range: false,
             sweep: false,
+            knots: false,
+            uneven: false,
             studies: false,
             shaded: false,
             width: Width::Two,

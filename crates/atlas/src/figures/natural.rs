@@ -104,6 +104,7 @@ mod tests {
             range: (0.15, 0.9),
             width: Width::Two,
             sweep: None,
+            knots: None,
             studies: &studies,
             tuner: &Tuner::default(),
         };

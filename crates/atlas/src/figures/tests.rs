@@ -25,7 +25,7 @@ const USUAL: Asked<'_> = Asked {
 
 /// The drawings of a figure, with what it takes of what is asked for.
 fn draw(entry: &FigureEntry, asked: &Asked<'_>, studies: &Studies) -> Vec<Drawing> {
-    let schemes = match asked.schemes.filter(|_| entry.schemes.is_some()) {
+    let schemes = match asked.schemes.filter(|_| entry.schemes.is_some() && !entry.uneven) {
         Some(specs) => specs.iter().map(|spec| spec.parse().unwrap()).collect(),
         None => entry.default_schemes().unwrap(),
     };
@@ -40,6 +40,7 @@ fn draw(entry: &FigureEntry, asked: &Asked<'_>, studies: &Studies) -> Vec<Drawin
         range: asked.range,
         width: asked.width,
         sweep: None,
+        knots: None,
         studies,
         tuner: &Tuner::default(),
     };
@@ -141,7 +142,7 @@ fn figures_of_schemes_are_readable_with_one_and_with_many() {
         "lambda:lambda=0.6",
         "tension:order=5",
     ];
-    for entry in FIGURES.iter().filter(|entry| entry.schemes.is_some()) {
+    for entry in FIGURES.iter().filter(|entry| entry.schemes.is_some() && !entry.uneven) {
         for (schemes, valences, width) in [
             (one, &[20usize][..], Width::One),
             (one, &[3], Width::Two),

@@ -4,6 +4,7 @@
 //! place. Within a picture camera, scale and colours are the same.
 
 mod lambda;
+mod nonuniform;
 mod tension;
 
 use crate::error::Error;
@@ -20,6 +21,8 @@ pub enum Gallery {
     Lambda,
     /// Of the tension scheme (Fang, Ma and Wang, Figs. 1, 2, 4, 6, 8, 9).
     Tension,
+    /// Of schemes with knot intervals (Li, Wei and Zhang 2019, Figs. 12 to 14).
+    NonUniform,
 }
 
 impl Gallery {
@@ -28,6 +31,7 @@ impl Gallery {
         match self {
             Gallery::Lambda => "surfaces",
             Gallery::Tension => "tension-surfaces",
+            Gallery::NonUniform => "nonuniform",
         }
     }
 
@@ -39,6 +43,7 @@ impl Gallery {
         match self {
             Gallery::Lambda => lambda::files(tuner),
             Gallery::Tension => tension::files(tuner),
+            Gallery::NonUniform => nonuniform::files(tuner.progress),
         }
     }
 }

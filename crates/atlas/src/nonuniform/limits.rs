@@ -41,7 +41,9 @@ fn element(surface: &Surface, mesh: &Mesh, place: Place) -> Result<(u32, [f64; 2
         }
     }
     let size = mesh.face(place.face as usize).len() as u32;
-    let (subs, corners) = if size == 4 { (1, 4) } else { (size, 1) };
+    // the n-gons of a hybrid net that was read have no inside
+    let quads = size == 4 || !surface.is_split();
+    let (subs, corners) = if quads { (1, 4) } else { (size, 1) };
     if place.sub >= subs {
         return Err(range("sub", place.sub, format!("0 to {}", subs - 1)));
     }

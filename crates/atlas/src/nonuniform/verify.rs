@@ -49,7 +49,8 @@ impl Required {
 #[derive(Clone, Debug)]
 pub struct Report {
     scheme: Scheme,
-    spokes: Spokes,
+    /// None: all valences and all positive intervals.
+    spokes: Option<Spokes>,
     required: Required,
     checks: Vec<Check>,
 }
@@ -70,10 +71,45 @@ impl Report {
         };
         Ok(Report {
             scheme,
-            spokes,
+            spokes: Some(spokes),
             required,
             checks,
         })
+    }
+
+    /// What is known of HNUSS at every valence from 3 for all positive intervals at once, wherever its first
+    /// level exists.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] for the other schemes, of which nothing is known for all intervals.
+    pub fn for_all(scheme: Scheme, required: Required) -> Result<Self, Error> {
+        let Scheme::Hnuss(rule) = scheme else {
+            return Err(Error::Usage {
+                message: format!("of {scheme} nothing is known for all valences and intervals"),
+                accepted: "hnuss[:simple|printed], or --knots".to_owned(),
+            });
+        };
+        Ok(Report {
+            scheme,
+            spokes: None,
+            required,
+            checks: for_all(rule),
+        })
+    }
+
+    /// The scheme.
+    pub fn scheme(&self) -> Scheme {
+        self.scheme
+    }
+
+    /// The intervals, unless it is about all.
+    pub fn spokes(&self) -> Option<&Spokes> {
+        self.spokes.as_ref()
+    }
+
+    /// The statements.
+    pub fn checks(&self) -> &[Check] {
+        &self.checks
     }
 
     /// What is known of all that is required together.
@@ -88,11 +124,14 @@ impl Report {
     }
 
     fn corner(&self) -> String {
+        let Some(spokes) = &self.spokes else {
+            return "closed, all positive knots".to_owned();
+        };
         let list = |list: &[f64]| list.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
         format!(
             "closed, knots {} next {}",
-            list(self.spokes.intervals()),
-            list(self.spokes.next())
+            list(spokes.intervals()),
+            list(spokes.next())
         )
     }
 
@@ -116,7 +155,7 @@ impl Report {
         match format {
             Format::Json => pretty(&json!({
                 "scheme": self.scheme.to_string(),
-                "valence": self.spokes.valence(),
+                "valence": self.spokes.as_ref().map(Spokes::valence),
                 "corner": self.corner(),
                 "require": self.required.name(),
                 "status": status,
@@ -126,9 +165,12 @@ impl Report {
                 "checks": self.checks.iter().map(check_json).collect::<Vec<_>>(),
             })),
             Format::Text => format!(
-                "{}, N = {}, {}, regular surface of degree 3\n\n{}\n{} is {status}\n",
+                "{}, N {}, {}, regular surface of degree 3\n\n{}\n{} is {status}\n",
                 self.scheme,
-                self.spokes.valence(),
+                match &self.spokes {
+                    Some(spokes) => format!("= {}", spokes.valence()),
+                    None => ">= 3".to_owned(),
+                },
                 self.corner(),
                 self.table().fitted(WIDTH),
                 self.required.name(),
@@ -151,9 +193,90 @@ fn check_json(check: &Check) -> Value {
     })
 }
 
-/// A rational number from below.
+/// A positive rational number from below.
 fn below(value: &BigRational) -> f64 {
-    <f64 as eigenring_scheme::Scalar>::rational(value).next_down()
+    <f64 as eigenring_scheme::Scalar>::rational(value).next_down().max(0.0)
+}
+
+fn proven(holds: bool) -> Status {
+    if holds { Status::Proven } else { Status::Undecided }
+}
+
+/// Lemma 3 where it applies, and in words what it needs.
+fn third_lemma(applies: bool, needs: &str) -> [Check; 2] {
+    let patches = lemmas::patches();
+    let least = patches.iter().flat_map(|patch| patch.least()).min();
+    let most = patches
+        .iter()
+        .map(|patch| patch.least().into_iter().max())
+        .min()
+        .flatten();
+    let check = |name, holds: bool, reached: String| Check {
+        name,
+        status: proven(holds && applies),
+        margin: None,
+        enclosure: None,
+        reached,
+    };
+    let coefficients = format!(
+        "Lemma 3, for every valence and all positive intervals: all 108 Bernstein coefficients of each of three patches are at least {}{needs}",
+        least.map_or(String::new(), |least| least.to_string()),
+    );
+    let direction =
+        format!("Lemma 3: the Jacobian in the directions of the lines is a P-matrix (Gale and Nikaido){needs}");
+    [
+        Check {
+            margin: most.as_ref().filter(|_| applies).map(below),
+            ..check("regular", patches.iter().all(lemmas::Patch::is_regular), coefficients)
+        },
+        check("injective", patches.iter().all(lemmas::Patch::is_injective), direction),
+    ]
+}
+
+/// What holds at every valence and for all positive intervals: identities and inequalities of formulas, and
+/// Lemma 3.
+fn for_all(rule: FirstLevel) -> Vec<Check> {
+    let check = |name, holds, reached: &str| Check {
+        name,
+        status: proven(holds),
+        margin: None,
+        enclosure: None,
+        reached: reached.to_owned(),
+    };
+    let mut checks = vec![
+        check(
+            "row_sums",
+            lemmas::beta_sums_to_one(),
+            "beta sums to 1, an identity of products of intervals, and I - Pi takes constants to 0",
+        ),
+        Check {
+            enclosure: Some([0.5, 0.5]),
+            ..check(
+                "subdominant",
+                true,
+                "Lemma 1: n alpha, a product of d/(d + d') twice, lies between 0 and 1, and so do all mu; no gap holds for all",
+            )
+        },
+        check(
+            "polygon",
+            true,
+            "Lemma 2: I - Pi takes the modes 1 and -1, of which a regular polygon consists, to 0",
+        ),
+    ];
+    checks.extend(third_lemma(true, ""));
+    let coplanar = rule.needs_polyhedron();
+    checks.push(Check {
+        status: if coplanar { Status::Numerical } else { Status::Undecided },
+        ..check(
+            "bounded_curvature",
+            false,
+            match coplanar {
+                true => "wherever the first level exists, it makes the corners of the n-gon coplanar, and 1/4 leads the height",
+                false => "the simple rule makes corners that are not coplanar; for n = 3 and 4 it is bounded by the matrix",
+            },
+        )
+    });
+    checks
 }
 
 fn hnuss(spokes: &Spokes, rule: FirstLevel) -> Result<Vec<Check>, Error> {
@@ -165,7 +288,6 @@ fn hnuss(spokes: &Spokes, rule: FirstLevel) -> Result<Vec<Check>, Error> {
         // without it there is no first level, and no surface to speak of
         EigenPolyhedron::new(d)?;
     }
-    let proven = |holds: bool| if holds { Status::Proven } else { Status::Undecided };
     let sums = lemmas::rows_sum_to_one(d).map_err(nonuniform)?;
     let polygon = lemmas::polygon_is_an_eigenvector(d).map_err(nonuniform)?;
     let mut checks = vec![Check {
@@ -182,15 +304,21 @@ fn hnuss(spokes: &Spokes, rule: FirstLevel) -> Result<Vec<Check>, Error> {
         .into_iter()
         .skip(3)
         .fold(0.0, |m: f64, x| m.max(x.abs()));
+    let strict = lemmas::is_strict(d).map_err(nonuniform)?;
     checks.push(Check {
         name: "subdominant",
-        status: proven(lemmas::is_strict(d).map_err(nonuniform)?),
+        status: proven(positive && strict),
         margin: positive.then(|| below(&bound)),
         enclosure: Some([0.5, 0.5]),
-        reached: match positive {
-            true => "Lemma 1: 1, 1/2, 1/2 lead; the margin bounds 1/2 - |lambda_4|, from min and max of n alpha, exactly".to_owned(),
-            false => "Lemma 1: 1, 1/2, 1/2 lead; at most three alpha vanish, so that no vector orthogonal to the modes 0, 1, -1 has them alone".to_owned(),
-        },
+        reached: match (positive, strict) {
+            (true, _) => {
+                "Lemma 1: 1, 1/2, 1/2 lead; the margin bounds 1/2 - |lambda_4|, from min and max of n alpha, exactly"
+            }
+            // the line across a zero spoke is a triple knot
+            (_, true) => "Lemma 1: 1, 1/2, 1/2 lead the n-gon; a zero spoke has a further 1/2 outside of it",
+            _ => "1/2 is no double eigenvalue of the n-gon",
+        }
+        .to_owned(),
     });
     checks.push(Check {
         name: "polygon",
@@ -199,38 +327,14 @@ fn hnuss(spokes: &Spokes, rule: FirstLevel) -> Result<Vec<Check>, Error> {
         enclosure: None,
         reached: "Lemma 2: the regular polygon is the eigenvector of 1/2, in exact cyclotomic numbers".to_owned(),
     });
-    let patches = lemmas::patches();
-    let least = patches.iter().flat_map(|patch| patch.least()).min();
-    let most = patches
-        .iter()
-        .map(|patch| patch.least().into_iter().max())
-        .min()
-        .flatten();
-    let lemma = |holds: bool| proven(holds && positive && polygon);
-    let needs = if positive {
-        ""
-    } else {
-        "; the proof needs positive intervals"
-    };
-    checks.push(Check {
-        name: "regular",
-        status: lemma(patches.iter().all(lemmas::Patch::is_regular)),
-        margin: most.as_ref().filter(|_| positive).map(below),
-        enclosure: None,
-        reached: format!(
-            "Lemma 3, for every valence and all positive intervals: all 108 Bernstein coefficients of each of three patches are at least {}{needs}",
-            least.map_or(String::new(), |least| least.to_string()),
-        ),
-    });
-    checks.push(Check {
-        name: "injective",
-        status: lemma(patches.iter().all(lemmas::Patch::is_injective)),
-        margin: None,
-        enclosure: None,
-        reached: format!(
-            "Lemma 3: the Jacobian in the directions of the lines is a P-matrix (Gale and Nikaido){needs}"
-        ),
-    });
+    checks.extend(third_lemma(
+        positive && polygon,
+        if positive {
+            ""
+        } else {
+            "; the proof needs positive intervals"
+        },
+    ));
     // Lines and sectors add 1/4 and less; where lambda_4 is 1/4 itself, it has Jordan blocks with them. What
     // is closer to it than 1e-9, far beyond rounding, counts as equal. All arguments are for positive
     // intervals.

@@ -22,6 +22,7 @@ fn draw(entry: &FigureEntry, topic: &Topic, valences: &[usize]) -> Result<Vec<Dr
         range: (0.0, 1.0),
         width: entry.width,
         sweep: None,
+        knots: None,
         studies: &Studies::load(None, &[], &Silent)?,
         tuner: topic.tuner,
     };

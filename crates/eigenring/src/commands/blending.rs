@@ -7,8 +7,7 @@ use crate::progress::Terminal;
 use crate::threads::Threads;
 use clap::Args;
 use eigenring_atlas::nonuniform::blending;
-use eigenring_atlas::schemes::SchemeName;
-use eigenring_nonuniform::{FirstLevel, Scheme, Spokes};
+use eigenring_nonuniform::{Scheme, Spokes};
 use std::process::ExitCode;
 
 /// Count the maxima of the blending function of an extraordinary vertex under schemes with knot intervals.
@@ -38,34 +37,18 @@ pub struct Arguments {
     output: Output,
 }
 
-/// The schemes by default: all.
-const ALL: [Scheme; 5] = [
-    Scheme::Nurss,
-    Scheme::EigenPolyhedron,
-    Scheme::Hnuss(FirstLevel::Simple),
-    Scheme::Hnuss(FirstLevel::Printed),
-    Scheme::Hnuss(FirstLevel::Improved),
-];
-
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         let format = self.output.format()?;
         self.threads.start()?;
-        let with_intervals = |name: SchemeName| match name {
-            SchemeName::NonUniform(scheme) => Ok(scheme),
-            _ => Err(Error::usage(
-                "a scheme without knot intervals has no such function",
-                "nurss, eigen-polyhedron and hnuss[:simple|printed]",
-            )),
-        };
         let schemes: Vec<Scheme> = match self.schemes.given() {
             true => self
                 .schemes
                 .all()?
-                .into_iter()
-                .map(with_intervals)
+                .iter()
+                .map(blending::with_intervals)
                 .collect::<Result<_, _>>()?,
-            false => ALL.to_vec(),
+            false => blending::ALL.to_vec(),
         };
         let next = if self.next.is_empty() {
             self.knots.clone()

@@ -17,6 +17,7 @@ use eigenring_atlas::schemes::{SchemeName, Tuner};
 use eigenring_atlas::sweep::Sweep;
 use eigenring_atlas::table::{Format, WIDTH};
 use eigenring_figure::{Figure, Width};
+use eigenring_nonuniform::{FirstLevel, Scheme, Spokes};
 use eigenring_scheme::Spec;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -29,7 +30,7 @@ use std::str::FromStr;
 /// names of the files that were written are printed.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  eigenring plot --list\n  eigenring plot --all\n  eigenring plot samples --valences 5,8 --size one\n  eigenring plot characteristic-map --schemes catmull-clark,lambda:optimal --valences 5,8\n  eigenring plot stencils --valences 3..20 --range 0.3..0.7 --format svg --out /tmp/figures\n  eigenring plot spectrum --schemes file:my.toml --sweep a=1..2:100 -N 5,8\n  eigenring plot overview -o overview.pdf"
+    after_help = "Examples:\n  eigenring plot --list\n  eigenring plot --all\n  eigenring plot samples --valences 5,8 --size one\n  eigenring plot characteristic-map --schemes catmull-clark,lambda:optimal --valences 5,8\n  eigenring plot stencils --valences 3..20 --range 0.3..0.7 --format svg --out /tmp/figures\n  eigenring plot spectrum --schemes file:my.toml --sweep a=1..2:100 -N 5,8\n  eigenring plot blending-functions --knots 7,1,1,7,1 --next 1,1,1,1,1\n  eigenring plot overview -o overview.pdf"
 )]
 pub struct Arguments {
     /// Names of figures; see --list
@@ -73,6 +74,12 @@ pub struct Arguments {
         conflicts_with = "all"
     )]
     sweep: Option<Sweep>,
+    /// Knot intervals of the first edge of each spoke, separated by commas, for figures of schemes with them
+    #[arg(long, value_name = "D0,D1,..", value_delimiter = ',', value_parser = args::number, allow_hyphen_values = true, conflicts_with = "all")]
+    knots: Vec<f64>,
+    /// With --knots: the intervals of all further edges of each spoke; by default the same
+    #[arg(long, value_name = "A0,A1,..", value_delimiter = ',', value_parser = args::number, allow_hyphen_values = true, requires = "knots")]
+    next: Vec<f64>,
     /// The range of values that colours show; by default each figure's own
     #[arg(long, value_name = "A..B", value_parser = colours, allow_hyphen_values = true)]
     colours: Option<(f64, f64)>,
@@ -192,9 +199,10 @@ impl Arguments {
             files::check_writable(given.unwrap_or(Path::new(UNSTORED)), &out)?;
         }
         let studies = self.studies(&entries)?;
+        let spokes = self.spokes()?;
         let tuner = args::tuner();
         let drawn = each(&Terminal, "figures", &entries, |entry| {
-            self.draw(entry, &formats, &studies, &tuner)
+            self.draw(entry, &formats, &studies, spokes.as_ref(), &tuner)
         })?;
         if let Some(remark) = &studies.remark {
             note(remark);
@@ -336,11 +344,14 @@ impl Arguments {
                     format!("{option} for {}", names.join(", ")),
                 ))
             };
-            if self.valences.valences.is_some() && entry.valences.is_empty() {
+            if self.valences.valences.is_some() && entry.valences.is_empty() && self.knots.is_empty() {
                 return refuse("--valences", |entry| !entry.valences.is_empty());
             }
             if self.sweep.is_some() && !entry.sweep {
                 return refuse("--sweep", |entry| entry.sweep);
+            }
+            if !self.knots.is_empty() && !entry.knots {
+                return refuse("--knots", |entry| entry.knots);
             }
             if self.range.is_some() && !entry.range {
                 return refuse("--range", |entry| entry.range);
@@ -383,12 +394,38 @@ impl Arguments {
             })
         };
         if self.schemes.given() {
-            return self.schemes.all();
+            let schemes = self.schemes.all()?;
+            let uneven = |scheme: &SchemeName| matches!(scheme, SchemeName::NonUniform(_));
+            // with --all each figure takes what it can draw
+            if !(self.all && entry.uneven && !schemes.iter().all(uneven)) {
+                return Ok(schemes);
+            }
+        }
+        if !self.knots.is_empty() && !entry.uneven {
+            return Ok(WITH_INTERVALS.map(SchemeName::NonUniform).to_vec());
         }
         match self.lambda.as_slice() {
             [] => Ok(entry.default_schemes()?),
+            _ if entry.uneven => Ok(entry.default_schemes()?),
             lambdas => Ok(lambdas.iter().map(member).collect()),
         }
+    }
+
+    /// The knot intervals around a vertex.
+    fn spokes(&self) -> Result<Option<Spokes>, Error> {
+        if self.knots.is_empty() {
+            return Ok(None);
+        }
+        let next = if self.next.is_empty() { &self.knots } else { &self.next };
+        let spokes = Spokes::new(self.knots.clone(), next.clone()).map_err(eigenring_atlas::Error::from)?;
+        if let Some(valences) = &self.valences.valences {
+            let count = self.knots.len();
+            if valences.closed()? != [count] {
+                let message = format!("--knots gives {count} spokes, and -N another number");
+                return Err(Error::usage(message, format!("{count}, or no -N")));
+            }
+        }
+        Ok(Some(spokes))
     }
 
     fn studies(&self, entries: &[&FigureEntry]) -> Result<Studies, Error> {
@@ -410,6 +447,7 @@ impl Arguments {
         entry: &FigureEntry,
         formats: &[PictureFormat],
         studies: &Studies,
+        spokes: Option<&Spokes>,
         tuner: &Tuner<'_>,
     ) -> Result<Vec<Files>, Error> {
         let (schemes, valences) = (self.schemes(entry)?, self.valences(entry)?);
@@ -429,6 +467,7 @@ impl Arguments {
                 None => entry.width,
             },
             sweep: self.sweep.as_ref(),
+            knots: spokes.filter(|_| entry.knots),
             studies,
             tuner,
         };
@@ -463,6 +502,13 @@ fn with_end(stem: &Path, end: &str) -> PathBuf {
     PathBuf::from(name)
 }
 
+/// The schemes of figures that are drawn with knot intervals by choice.
+const WITH_INTERVALS: [Scheme; 3] = [
+    Scheme::Nurss,
+    Scheme::EigenPolyhedron,
+    Scheme::Hnuss(FirstLevel::Improved),
+];
+
 fn takes_lambda(entry: &FigureEntry) -> bool {
-    !entry.lambdas.is_empty() || entry.schemes.is_some()
+    !entry.lambdas.is_empty() || (entry.schemes.is_some() && !entry.uneven)
 }

@@ -1,11 +1,14 @@
 //! `eigenring render`: pictures of surfaces.
 
-use super::subdivide::SurfaceArgs;
+use super::subdivide::{IntervalArgs, SurfaceArgs};
 use crate::args::{self, SchemesOnMesh};
 use crate::error::Error;
 use crate::files;
 use clap::{Args, ValueEnum};
+use eigenring_atlas::nonuniform::picture;
+use eigenring_atlas::on_mesh::OnMesh;
 use eigenring_atlas::render::{Settings, Show, Subject, render};
+use eigenring_atlas::schemes::SchemeName;
 use eigenring_surface::{Rules, Surface};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -16,7 +19,7 @@ use std::process::ExitCode;
 /// in all pictures of a row; values beyond the colours are black.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  eigenring render spot.obj --schemes catmull-clark,lambda:optimal --show highlight --up y -o lines.png\n  eigenring render torus.obj --schemes catmull-clark --show gauss -o gauss.png"
+    after_help = "Examples:\n  eigenring render spot.obj --schemes catmull-clark,lambda:optimal --show highlight --up y -o lines.png\n  eigenring render torus.obj --schemes catmull-clark --show gauss -o gauss.png\n  eigenring render ring.obj --schemes nurss,hnuss --show reflection -o lines.png     knot intervals of the file"
 )]
 pub struct Arguments {
     /// The control mesh: .obj, .off or .ply
@@ -44,6 +47,8 @@ pub struct Arguments {
     size: usize,
     #[command(flatten)]
     surface: SurfaceArgs,
+    #[command(flatten)]
+    intervals: IntervalArgs,
     /// The file to write, which ends with .png
     #[arg(short, long, value_name = "OUT.png")]
     out: PathBuf,
@@ -118,24 +123,45 @@ impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         self.surface.start()?;
         let settings = self.settings()?;
-        let mesh = self.surface.mesh(&self.file)?;
         let schemes = self.schemes.all()?;
         if schemes.len() > 8 {
             return Err(Error::range("number of schemes", schemes.len(), "1 to 8"));
         }
+        let uneven = |scheme: &OnMesh| matches!(scheme.name, SchemeName::NonUniform(_));
+        let with_intervals = schemes.iter().any(uneven);
+        let mesh = if with_intervals {
+            self.surface.refuse_for_intervals()?;
+            let mut mesh = self.surface.mesh_with_intervals(&self.file)?;
+            self.intervals.read(&mut mesh)?;
+            mesh
+        } else {
+            self.intervals.refuse()?;
+            self.surface.mesh(&self.file)?
+        };
+        // other schemes beside those with intervals know neither these nor weights
+        let mut plain = mesh.clone();
+        plain.features.knots.clear();
         let rules: Vec<Rules> = schemes
             .iter()
-            .map(|scheme| self.surface.rules(scheme, &mesh))
+            .filter(|scheme| !uneven(scheme))
+            .map(|scheme| self.surface.rules(scheme, &plain))
             .collect::<Result<_, _>>()?;
-        let in_file = |error: eigenring_surface::Error| eigenring_atlas::Error::from(error).in_file(&self.file);
-        let surfaces = rules.iter().zip(&schemes).map(|(rules, scheme)| {
-            let surface = Surface::new(&mesh, rules).map_err(in_file)?;
-            Ok((
-                scheme.called(&rules.definition().name()),
-                Subject::Surface(Box::new(surface)),
-            ))
-        });
-        let surfaces: Vec<_> = surfaces.collect::<Result<_, Error>>()?;
+        let mut rules = rules.iter();
+        let in_file = |error: eigenring_atlas::Error| error.in_file(&self.file);
+        let mut surfaces = Vec::new();
+        for scheme in &schemes {
+            if let SchemeName::NonUniform(scheme) = scheme.name {
+                let outside = self.intervals.outside();
+                let found = picture::subject(&mesh, scheme, outside, settings.size, settings.show);
+                let (subject, simple) = found.map_err(in_file)?;
+                self.intervals.tell(&simple);
+                surfaces.push((scheme.to_string(), subject));
+            } else if let Some(rules) = rules.next() {
+                let surface = Surface::new(&plain, rules).map_err(|error| in_file(error.into()))?;
+                let name = scheme.called(&rules.definition().name());
+                surfaces.push((name, Subject::Surface(Box::new(surface))));
+            }
+        }
         let page = render(&surfaces, &settings)?;
         files::save(&self.out, &page.png()?)?;
         Ok(ExitCode::SUCCESS)

@@ -33,6 +33,9 @@ use std::process::ExitCode;
 ///
 /// With --scheme surfaces or tension-surfaces: OUT/surfaces/ or OUT/tension-surfaces/ gets pictures of limit
 /// surfaces like those of the papers, with tables of curvature and of the spectra of features.
+///
+/// With --scheme nonuniform: OUT/nonuniform/ gets the maxima of blending functions, where eigen-polyhedra
+/// exist, the gaps of Lemma 1 on HNUSS, and reflection lines.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  eigenring tables                         all of results/lambda, valences 3 to 20\n  eigenring tables --valences 5,6          two valences, below eigenring-out\n  eigenring tables --starts full --format latex\n  eigenring tables --scheme tension        all of results/tension"
@@ -75,6 +78,8 @@ pub enum Tabulated {
     Surfaces,
     /// Pictures of surfaces of the tension scheme, and spectra of its features.
     TensionSurfaces,
+    /// Pictures and counts of schemes with knot intervals.
+    Nonuniform,
 }
 
 /// See [`Knots`].
@@ -120,6 +125,7 @@ impl Arguments {
         let gallery = match self.scheme {
             Tabulated::Surfaces => Some(Gallery::Lambda),
             Tabulated::TensionSurfaces => Some(Gallery::Tension),
+            Tabulated::Nonuniform => Some(Gallery::NonUniform),
             _ => None,
         };
         if let Some(gallery) = gallery {

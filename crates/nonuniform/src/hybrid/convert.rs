@@ -74,15 +74,8 @@ pub(super) fn convert(net: &Net, rule: FirstLevel, outside: Outside) -> Result<C
 
 /// What HNUSS has no rules for.
 fn check(net: &Net) -> Result<(), Error> {
+    net.check_quads()?;
     let topology = net.topology();
-    let odd = (0..topology.face_count() as u32).find(|&face| topology.face_size(face) != 4);
-    if let Some(face) = odd {
-        return Err(Error::Vertex {
-            vertex: topology.origin(topology.face_halves(face).start),
-            what: format!("belongs to face {face} of {} corners", topology.face_size(face)),
-            accepted: "are quads; one level of NURSS makes them of all faces",
-        });
-    }
     for vertex in 0..topology.vertex_count() as u32 {
         let valence = net.valence(vertex);
         let (what, accepted) = if net.is_on_boundary(vertex) && valence > 3 {

@@ -52,6 +52,29 @@ impl HybridNet {
         convert::convert(net, rule, outside)
     }
 
+    /// The net itself, if it is a hybrid net already, such as one that was written and is read again: one with
+    /// n-gons whose corners are inner vertices, whose edges have zero intervals and lie beside quads, and all
+    /// whose inner vertices have valence 4. Of no other mesh could these n-gons be refined: a level of NURSS
+    /// would leave a vertex with zero intervals at all its spokes.
+    pub fn again(net: &Net) -> Option<Self> {
+        let topology = net.topology();
+        let regular = |vertex: u32| match net.is_on_boundary(vertex) {
+            true => net.valence(vertex) <= 3,
+            false => net.valence(vertex) == 4,
+        };
+        let in_place = |half: u32| {
+            let beside = topology.twin(half).map(|twin| topology.face_size(topology.face(twin)));
+            net.interval(half) == 0.0 && beside == Some(4) && !net.is_on_boundary(topology.origin(half))
+        };
+        let hybrid = HybridNet::known(net.clone());
+        let ngons: Vec<u32> = hybrid.extraordinary_faces().collect();
+        let is_one = !ngons.is_empty()
+            && ngons.iter().all(|&face| topology.face_halves(face).all(in_place))
+            && (0..topology.vertex_count() as u32).all(regular)
+            && net.marked().next().is_none();
+        is_one.then_some(hybrid)
+    }
+
     fn known(net: Net) -> Self {
         let topology = net.topology();
         let mut corners = vec![None; topology.vertex_count()];

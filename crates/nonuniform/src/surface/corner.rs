@@ -35,7 +35,7 @@ impl Corner {
         let cut_off = || Error::Range {
             what: "n-gon",
             given: face.to_string(),
-            accepted: "one with four edges along each spoke; a zero interval may not lead to the boundary".to_owned(),
+            accepted: "one with four edges along each spoke".to_owned(),
         };
         let bases: Vec<u32> = halves
             .iter()
@@ -51,9 +51,10 @@ impl Corner {
             let right = topology.twin(topology.next(base))?;
             Some(net.net().interval(topology.next(right)))
         };
-        let next: Vec<f64> = bases
-            .iter()
-            .map(|&base| second(base))
+        // an edge without width that leads to the boundary has none behind it: beyond, all is mirrored
+        let ends: Vec<bool> = (0..n).map(|i| d[i] == 0.0 && second(bases[i]).is_none()).collect();
+        let next: Vec<f64> = (0..n)
+            .map(|i| if ends[i] { Some(0.0) } else { second(bases[i]) })
             .collect::<Option<_>>()
             .ok_or_else(cut_off)?;
         let fan = Fan::closed(Centre::SplitFace, n)?.with_intervals(&d, &next)?;
@@ -65,13 +66,14 @@ impl Corner {
             let entries = matrix.row(row).iter().enumerate();
             table.push(entries.filter(|(_, w)| **w != 0.0).map(|(i, w)| (i as u32, *w)))?;
         }
+        // no rule reads a point beyond such an end: the point at it stands for them
+        let steps = |spoke: usize, count: i32| {
+            let count = (count as usize - 1) / 2;
+            if ends[spoke % n] { count.min(1) } else { count }
+        };
         let vertex = |site: &Site| {
-            walk(
-                net,
-                bases[site.sector],
-                (site.x as usize - 1) / 2,
-                (site.y as usize - 1) / 2,
-            )
+            let (j, k) = (steps(site.sector, site.x), steps(site.sector + 1, site.y));
+            walk(net, bases[site.sector], j, k)
         };
         let vertices: Vec<u32> = sites.iter().map(vertex).collect::<Option<_>>().ok_or_else(cut_off)?;
         Ok(Corner {

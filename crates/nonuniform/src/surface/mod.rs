@@ -93,8 +93,8 @@ impl Surface {
         let third = second.halved()?;
         Ok(Surface {
             levels: vec![first, second, third],
+            split: refinement.is_split(),
             simple: refinement.simple,
-            split: !mesh.is_quads(),
         })
     }
 

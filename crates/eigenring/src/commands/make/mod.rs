@@ -84,6 +84,10 @@ enum Shape {
     Propeller,
     /// A wheel with n teeth and a hole.
     Gear,
+    /// A torus with a stone, with knot intervals.
+    Ring,
+    /// A dome with a crest, with knot intervals.
+    Helmet,
     /// A planar n-gon of quads.
     Fan,
     /// The unit square with inner vertices of valence 3, 3, 5, 5.
@@ -155,6 +159,8 @@ impl Arguments {
             Shape::Propeller => Ok(shapes::propeller(count(3, 3)?)),
             Shape::Gear => Ok(shapes::gear(count(8, 3)?)),
             Shape::Fan => Ok(shapes::fan(count(5, 3)?)),
+            Shape::Ring => without(shapes::ring()),
+            Shape::Helmet => without(shapes::helmet()),
             Shape::Square3355 => without(shapes::square3355()),
         }
     }

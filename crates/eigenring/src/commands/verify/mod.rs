@@ -12,6 +12,7 @@ use crate::threads::Threads;
 use crate::valences::{self, MAX_VALENCE, Valences};
 use clap::{ArgGroup, Args, ValueEnum};
 use eigenring_atlas::certificates::{beside, confirm, curve, family, input, ranged};
+use eigenring_atlas::nonuniform::certificate::Certificate;
 use eigenring_atlas::nonuniform::verify as nonuniform;
 use eigenring_atlas::progress::each;
 use eigenring_atlas::schemes::SchemeName;
@@ -48,7 +49,7 @@ pub struct Arguments {
     #[command(flatten)]
     settings: SchemeSettings,
     /// Valences: numbers and ranges, such as 5 or 3,5..8, with a certificate for each; 3.. is every valence,
-    /// of catmull-clark and doo-sabin. May be left out where --fan, --knots or a scheme file for one valence
+    /// of catmull-clark and doo-sabin, and of hnuss for all positive knot intervals. May be left out where --fan, --knots or a scheme file for one valence
     /// fix it. With --all: those of the lambda-scheme, by
     /// default 3..20
     #[arg(
@@ -170,6 +171,9 @@ impl Arguments {
             && let (Some(from), None) = (valences.from(), self.lambda_range)
         {
             self.corner.refuse("for all valences at once")?;
+            if let SchemeName::NonUniform(scheme) = scheme {
+                return self.for_all_intervals(*scheme, from);
+            }
             return self.at_all_valences(scheme, valences, from);
         }
         let valences = self.valences.as_ref().map(Valences::closed).transpose()?;
@@ -292,26 +296,17 @@ impl Arguments {
 
     /// What is known of a scheme with knot intervals.
     fn with_intervals(&self, scheme: NonUniform, valences: Option<&[usize]>) -> Result<ExitCode, Error> {
-        let required = match self.require {
-            Required::C1 => nonuniform::Required::C1,
-            Required::Bounded => nonuniform::Required::Bounded,
-            _ => {
-                return Err(Error::usage(
-                    format!("this is not examined for {scheme}"),
-                    "--require c1 or bounded",
-                ));
-            }
-        };
-        if self.output.is_some() || self.exact {
-            let message = format!("certificates of {scheme} are not stored: they are recomputed in no time");
-            return Err(Error::usage(message, "no -o and no --exact; --format json prints all"));
+        let required = self.required(scheme)?;
+        if self.exact {
+            let message = format!("--exact has no meaning for {scheme}, whose intervals are exact");
+            return Err(Error::usage(message, "--exact with --scheme file:SCHEME.toml"));
         }
         let name = SchemeName::NonUniform(scheme);
         let valences = match valences {
             Some(valences) => valences.iter().copied().map(Some).collect(),
             None => vec![None],
         };
-        let mut holds = true;
+        let mut reports = Vec::new();
         for valence in valences {
             let spokes = match self.corner.shape(valence, &name)? {
                 (Shape::Knots { intervals, next }, None) => Spokes::new(intervals, next),
@@ -324,11 +319,46 @@ impl Arguments {
                 }
             };
             let spokes = spokes.map_err(eigenring_atlas::Error::from)?;
-            let report = nonuniform::Report::new(scheme, spokes, required)?;
-            files::emit(None, report.render(self.format.format()).as_bytes())?;
-            holds &= report.status() == Status::Proven;
+            reports.push(nonuniform::Report::new(scheme, spokes, required)?);
         }
-        Ok(exit(holds))
+        self.report(&reports)
+    }
+
+    /// What is known of HNUSS at all valences for all positive intervals.
+    fn for_all_intervals(&self, scheme: NonUniform, from: usize) -> Result<ExitCode, Error> {
+        self.corner
+            .refuse("with an open range of valences, which is about all intervals")?;
+        if from != 3 {
+            return Err(Error::usage(
+                format!("the proof for all valences begins at 3, and not at {from}"),
+                "-N 3.., or a range with an end",
+            ));
+        }
+        self.report(&[nonuniform::Report::for_all(scheme, self.required(scheme)?)?])
+    }
+
+    /// Stores certificates if that is asked for, and prints what they say.
+    fn report(&self, reports: &[nonuniform::Report]) -> Result<ExitCode, Error> {
+        let certificates: Vec<Certificate> = reports.iter().map(Certificate::of).collect();
+        self.store(&certificates, |certificate| {
+            (certificate.valence().unwrap_or(0), certificate.to_json())
+        })?;
+        for report in reports {
+            files::emit(None, report.render(self.format.format()).as_bytes())?;
+        }
+        Ok(exit(reports.iter().all(|report| report.status() == Status::Proven)))
+    }
+
+    /// What must hold of a scheme with knot intervals.
+    fn required(&self, scheme: NonUniform) -> Result<nonuniform::Required, Error> {
+        match self.require {
+            Required::C1 => Ok(nonuniform::Required::C1),
+            Required::Bounded => Ok(nonuniform::Required::Bounded),
+            _ => Err(Error::usage(
+                format!("this is not examined for {scheme}"),
+                "--require c1 or bounded",
+            )),
+        }
     }
 
     fn over_parameter(&self, valences: Option<&[usize]>, range: &(String, [Number; 2])) -> Result<ExitCode, Error> {
