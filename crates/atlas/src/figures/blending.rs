@@ -42,7 +42,7 @@ const ASPECT: f64 = 0.7;
 const HEADING: f64 = 5.0;
 /// Levels of the graph that is drawn, and of the net on which maxima are counted.
 const DRAWN: usize = 3;
-const COUNTED: usize = 5;
+const COUNTED: usize = 4;
 /// The radius that is drawn: the functions reach two steps, and beyond that a little.
 const RADIUS: f64 = 2.3;
 /// The height on the page of a function whose value is 1, in steps of the star.
@@ -86,6 +86,7 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
         .map(|(&(_, scheme), [_, counted])| title(schemes[scheme], counted));
     let narrowest = narrowest(titles, NARROWEST - 4.0);
     let grid = Grid::new(sets.len(), schemes.len(), inputs.width, BAR, narrowest);
+    let highest = found.iter().map(|[drawn, _]| drawn.peaks[0].value).fold(0.0, f64::max);
     let mut table = Table::new(columns());
     let valences: Vec<String> = sets.iter().map(|spokes| spokes.valence().to_string()).collect();
     let height = grid.height(ASPECT * grid.across) + HEADING;
@@ -95,13 +96,13 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
     for (&(set, scheme), [drawn, counted]) in all.iter().zip(&found) {
         table.push(row(schemes[scheme], &sets[set], counted));
         let (at_row, at_column) = grid.place(set, scheme);
-        let panel = Panel::new(surface(drawn, &scale)).title(title(schemes[scheme], counted));
+        let panel = Panel::new(surface(drawn, highest, &scale)).title(title(schemes[scheme], counted));
         figure = figure.panel(at_row, at_column, panel);
     }
     Ok(vec![Drawing::of(&ENTRY, figure, table)])
 }
 
-fn surface(blending: &Blending, scale: &ColourScale) -> Surface {
+fn surface(blending: &Blending, highest: f64, scale: &ColourScale) -> Surface {
     let inside = |at: u32| {
         let [x, y, _] = blending.graph[at as usize];
         x.hypot(y) < RADIUS
@@ -119,7 +120,7 @@ fn surface(blending: &Blending, scale: &ColourScale) -> Surface {
     });
     // a disc needs less room than the square around it, and the peak stands in its middle
     let (side, rise) = (0.74 * RADIUS, RADIUS * VIEW.elevation.to_radians().tan());
-    let top = (HEIGHT * scale.range.1 - rise).max(0.0);
+    let top = (HEIGHT * highest - rise).max(0.0);
     let mut surface = Surface::new(VIEW)
         .quads(quads, scale)
         .within([[-side, -side, 0.0], [side, side, top]]);
