@@ -49,8 +49,8 @@ pub struct Arguments {
     #[command(flatten)]
     settings: SchemeSettings,
     /// Valences: numbers and ranges, such as 5 or 3,5..8, with a certificate for each; 3.. is every valence,
-    /// of catmull-clark and doo-sabin, and of hnuss for all positive knot intervals. May be left out where --fan, --knots or a scheme file for one valence
-    /// fix it. With --all: those of the lambda-scheme, by
+    /// of catmull-clark and doo-sabin, and of hnuss for all positive knot intervals. May be left out where
+    /// --fan, --knots or a scheme file for one valence fix it. With --all: those of the lambda-scheme, by
     /// default 3..20
     #[arg(
         short = 'N',
