@@ -130,8 +130,8 @@ pub struct Corner {
     steps: Option<usize>,
 }
 
-/// Whether a number is a knot interval that rules take: 0, or a number from 1e-60 to 1e60, so that products of
-/// four, which rules form, are doubles.
+/// Whether a number is a knot interval that rules take: 0, or a number from 1e-60 to 1e60, so that products
+/// of four, which rules form, are doubles.
 pub fn is_interval(value: f64) -> bool {
     value == 0.0 || (1e-60..=1e60).contains(&value)
 }

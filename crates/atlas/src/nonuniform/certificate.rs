@@ -1,8 +1,8 @@
 //! Stored certificates of schemes with knot intervals.
 //!
-//! Of HNUSS at given intervals, or at every valence for all positive intervals. The evidence are the Bernstein
-//! coefficients of Lemma 3, which anyone can compare with their own; none of it is believed: a certificate is
-//! checked again by computing all of it anew from the rules, in the same exact arithmetic.
+//! Of HNUSS at given intervals, or at every valence for all positive intervals. The evidence are the
+//! Bernstein coefficients of Lemma 3, which anyone can compare with their own; none of it is believed: a
+//! certificate is checked again by computing all of it anew from the rules, in the same exact arithmetic.
 
 use super::verify::{Check, Report, Required};
 use crate::error::Error;

@@ -52,10 +52,10 @@ impl HybridNet {
         convert::convert(net, rule, outside)
     }
 
-    /// The net itself, if it is a hybrid net already, such as one that was written and is read again: one with
-    /// n-gons whose corners are inner vertices, whose edges have zero intervals and lie beside quads, and all
-    /// whose inner vertices have valence 4. Of no other mesh could these n-gons be refined: a level of NURSS
-    /// would leave a vertex with zero intervals at all its spokes.
+    /// The net itself, if it is a hybrid net already, such as one that was written and is read again: one
+    /// with n-gons whose corners are inner vertices, whose edges have zero intervals and lie beside quads,
+    /// and all whose inner vertices have valence 4. Of no other mesh could these n-gons be refined: a level
+    /// of NURSS would leave a vertex with zero intervals at all its spokes.
     pub fn again(net: &Net) -> Option<Self> {
         let topology = net.topology();
         let regular = |vertex: u32| match net.is_on_boundary(vertex) {
