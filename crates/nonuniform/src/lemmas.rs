@@ -59,10 +59,10 @@ pub fn gap_bound(d: &[f64]) -> Result<BigRational, Error> {
 }
 
 /// Whether all eigenvalues of Q_n after 1, 1/2, 1/2 are proven to be below 1/2 in modulus: mu is a mean of
-/// the n alpha over a vector that is orthogonal to the Fourier modes 0 and +-1. It is 0 or 1 only if that vector
-/// lives where n alpha is 0, or where it is 1, and on three places or fewer no vector but 0 is orthogonal to
-/// the three. With positive intervals spokes and sectors add 1/4 and less; a zero spoke, whose line across is
-/// a triple knot, adds a further 1/2 outside of the n-gon, of which this says nothing.
+/// the n alpha over a vector that is orthogonal to the Fourier modes 0 and +-1. It is 0 or 1 only if that
+/// vector lives where n alpha is 0, or where it is 1, and on three places or fewer no vector but 0 is
+/// orthogonal to the three. With positive intervals spokes and sectors add 1/4 and less; a zero spoke, whose
+/// line across is a triple knot, adds a further 1/2 outside of the n-gon, of which this says nothing.
 ///
 /// # Errors
 /// Those of [`SplitFace::new`].
