@@ -25,8 +25,16 @@ pub enum Error {
         /// Its corners.
         corners: usize,
     },
-    /// A vertex off the plane z = 0, or not finite.
-    #[error("vertex {vertex} is at {position:?}: accepted are finite points with z = 0")]
+    /// A vertex that is not finite.
+    #[error("vertex {vertex} is at {position:?}: accepted are finite points")]
+    NotFinite {
+        /// Its number.
+        vertex: usize,
+        /// Where it is.
+        position: [f64; 3],
+    },
+    /// A vertex off the plane z = 0.
+    #[error("vertex {vertex} is at {position:?}: accepted are points with z = 0")]
     NotPlanar {
         /// Its number.
         vertex: usize,
@@ -44,6 +52,51 @@ pub enum Error {
     /// A closed mesh has no boundary for Dirichlet data.
     #[error("the mesh has no boundary: accepted are planar meshes with one")]
     Closed,
+    /// A mesh with a boundary, where a closed surface is wanted.
+    #[error("the mesh has a boundary: accepted are closed ones")]
+    Open,
+    /// No sphere can be fitted.
+    #[error(
+        "face {face} does not turn its front away from the origin: accepted are surfaces around it whose faces run counter-clockwise from outside"
+    )]
+    NotStar {
+        /// The face of the refined mesh.
+        face: usize,
+    },
+    /// Functions without square-integrable second derivatives.
+    #[error(
+        "at valence {valence} the ratio of mu and lambda is {ratio:.4}: accepted are ratios up to {most:.4}, whose functions have second derivatives that {annuli} annuli integrate"
+    )]
+    NotH2 {
+        /// The valence.
+        valence: usize,
+        /// |mu| / lambda.
+        ratio: f64,
+        /// The largest accepted one.
+        most: f64,
+        /// How many annuli there may be.
+        annuli: usize,
+    },
+    /// Two choices that exclude each other.
+    #[error("{what}: accepted is {accepted}")]
+    Combination {
+        /// What was asked for.
+        what: &'static str,
+        /// What may be.
+        accepted: &'static str,
+    },
+    /// Conjugate gradients do not end.
+    #[error(
+        "the residual of {unknowns} unknowns is {residual:.1e} of its start after {iterations} iterations: accepted are problems for which 1e-12 is reached"
+    )]
+    NoConvergence {
+        /// The size.
+        unknowns: usize,
+        /// How many there were.
+        iterations: usize,
+        /// Residual over that at the start.
+        residual: f64,
+    },
     /// The mesh stays too narrow.
     #[error(
         "extraordinary vertices or boundaries are too close to each other after {steps} steps: accepted are meshes with two faces between them"

@@ -1,13 +1,14 @@
-//! Galerkin's method: stiffness, mass and load, data on the boundary, and the errors of the result.
+//! Galerkin's method: one problem on one level.
 
-use crate::Error;
+use crate::assembly::{Form, Load, Tables, assemble, loads};
+use crate::geometry::Geometry;
+use crate::multigrid::Multigrid;
+use crate::norms::{Norms, errors};
 use crate::solution::Solution;
-use crate::space::{Ends, Kind, Space};
-use crate::tables::{Jet, Table, bicubic, line_rule};
-use faer::linalg::solvers::Solve;
-use faer::sparse::{SparseColMat, Triplet};
-use rayon::prelude::*;
-use std::collections::BTreeMap;
+use crate::space::{Ends, Space};
+use crate::sparse::{Numbering, Sparse};
+use crate::tables::Around;
+use crate::{Error, MOST_ANNULI, boundary};
 use std::time::Instant;
 
 /// What is solved.
@@ -15,34 +16,75 @@ use std::time::Instant;
 pub enum Problem {
     /// `(grad u, grad v) = (f, v)` with the trace prescribed.
     Poisson,
+    /// `(grad u, grad v) = (f, v) + (du/dn, v)` over the boundary, with the mean of the given solution.
+    Neumann,
     /// The nearest function in the mean square.
     L2,
+    /// `(laplace u, laplace v) = (f, v)` with trace and normal derivative prescribed: a clamped plate.
+    Biharmonic,
+    /// `(grad u, grad v) + (u, v) = (f, v)` on a closed surface, with the operator of Laplace and Beltrami.
+    LaplaceBeltrami,
 }
 
-/// Quadrature and boundary.
+/// How Dirichlet's data enter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dirichlet {
+    /// The nearest trace in the mean square, eliminated.
+    Projection,
+    /// By terms of the variational form.
+    Nitsche,
+}
+
+/// How the system is solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Solver {
+    /// By a sparse factor.
+    Cholesky,
+    /// By conjugate gradients with a multigrid cycle over the levels.
+    Multigrid,
+}
+
+/// Unknowns up to which a factor is the default.
+const FACTORED: usize = 200_000;
+
+/// The solver of so many unknowns.
+pub(crate) fn default_solver(dof: usize) -> Solver {
+    if dof > FACTORED {
+        Solver::Multigrid
+    } else {
+        Solver::Cholesky
+    }
+}
+
+/// Quadrature, boundary and solver.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
     /// The solution beyond the boundary.
     pub ends: Ends,
+    /// Dirichlet's data.
+    pub dirichlet: Dirichlet,
     /// Gauss points of an element in each direction, 2 to 10.
     pub gauss: usize,
-    /// Annuli at extraordinary vertices; `None` until `lambda^2m < 1e-16`.
+    /// Annuli at extraordinary vertices; `None` until `lambda^2m < 1e-16` and, where second derivatives are
+    /// integrated, `(mu/lambda)^2m < 1e-10`.
     pub depth: Option<usize>,
     /// Whether the last annulus stands for those that follow.
     pub scaled: bool,
+    /// `None` for the factor up to 2*10^5 unknowns, multigrid above.
+    pub solver: Option<Solver>,
 }
 
-/// Norms of a function over the domain: seminorms of first and second order.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Norms {
-    /// The mean square's root.
-    pub l2: f64,
-    /// Of the gradient.
-    pub h1: f64,
-    /// Of the Hessian, face by face.
-    pub h2: f64,
-    /// The maximum over the quadrature points.
-    pub linf: f64,
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            ends: Ends::Open,
+            dirichlet: Dirichlet::Projection,
+            gauss: 4,
+            depth: None,
+            scaled: false,
+            solver: None,
+        }
+    }
 }
 
 /// The result of one level.
@@ -58,286 +100,207 @@ pub struct Outcome {
     pub error: Norms,
     /// Of the solution, by the same points.
     pub norm: Norms,
+    /// How it was solved.
+    pub solver: Solver,
+    /// Iterations of conjugate gradients.
+    pub iterations: Option<usize>,
     /// Seconds for assembly, the solver and the errors.
     pub seconds: [f64; 3],
+    /// The coefficients of the solution: control points of the level, then ghosts.
+    pub coefficients: Vec<f64>,
 }
 
-/// A point of a face in the plane: jets of x and y, `J^-1` by rows, its determinant times the weight.
-struct Geometry {
-    x: [Jet; 2],
-    inverse: [[f64; 2]; 2],
-    measure: f64,
+/// Which unknowns a space has.
+pub(crate) fn used(space: &Space, ends: Ends) -> Vec<bool> {
+    (0..space.positions.len())
+        .map(|v| ends == Ends::Open || v < space.inner)
+        .collect()
 }
 
-fn geometry(jets: &[Jet], points: &[[f64; 2]], weight: f64) -> Result<Geometry, f64> {
-    let mut x = [[0.0; 6]; 2];
-    for (jet, point) in jets.iter().zip(points) {
-        for (sum, coordinate) in x.iter_mut().zip(point) {
-            sum.iter_mut().zip(jet).for_each(|(s, j)| *s += coordinate * j);
+/// Which unknowns make up the trace; for plates, trace and normal derivative.
+pub(crate) fn fixed(space: &Space, ends: Ends, plate: bool) -> Vec<bool> {
+    let ghost = |v: usize| v >= space.inner && ends == Ends::Open;
+    let rim = |v: usize| v < space.inner && space.boundary[v] && (plate || ends == Ends::Natural);
+    (0..space.positions.len()).map(|v| ghost(v) || rim(v)).collect()
+}
+
+/// Tables of the elements.
+pub(crate) fn tables(space: &Space, options: &Options, plate: bool) -> Result<Tables, Error> {
+    let own = |around: &Around| {
+        if plate {
+            around.plate_depth()
+        } else {
+            Some(around.depth())
         }
+    };
+    if let Some((&valence, around)) = space.around.iter().find(|(_, around)| own(around).is_none()) {
+        return Err(Error::NotH2 {
+            valence,
+            ratio: around.ratio,
+            most: around.most_ratio(),
+            annuli: MOST_ANNULI,
+        });
     }
-    let det = x[0][1] * x[1][2] - x[0][2] * x[1][1];
-    if !(det > 0.0) {
-        return Err(det);
-    }
-    let inverse = [[x[1][2] / det, -x[0][2] / det], [-x[1][1] / det, x[0][1] / det]];
-    Ok(Geometry {
-        x,
-        inverse,
-        measure: det * weight,
-    })
+    let depth = |around: &Around| options.depth.or(own(around)).unwrap_or(MOST_ANNULI);
+    Ok(space.tables(options.gauss, &depth, options.scaled))
 }
 
-impl Geometry {
-    /// The gradient of a function with these derivatives.
-    fn gradient(&self, s: f64, t: f64) -> [f64; 2] {
-        let [a, b] = self.inverse;
-        [s * a[0] + t * b[0], s * a[1] + t * b[1]]
-    }
+/// Tables by which errors are measured.
+fn measure(space: &Space) -> Tables {
+    space.tables(6, &Around::depth, false)
+}
 
-    /// The Hessian `J^-T (D^2 v - v_x D^2 x - v_y D^2 y) J^-1` as xx, xy, yy.
-    fn hessian(&self, v: &Jet, gradient: [f64; 2]) -> [f64; 3] {
-        let d: [f64; 3] =
-            std::array::from_fn(|k| v[3 + k] - gradient[0] * self.x[0][3 + k] - gradient[1] * self.x[1][3 + k]);
-        let [a, b] = self.inverse;
-        let form = |i: usize, j: usize| a[i] * (d[0] * a[j] + d[1] * b[j]) + b[i] * (d[1] * a[j] + d[2] * b[j]);
-        [form(0, 0), form(0, 1), form(1, 1)]
+fn right_hand_side(problem: Problem, u: &Solution, at: &Geometry) -> f64 {
+    let exact = at.exact(u);
+    let laplacian = exact.hessian[0] + exact.hessian[2];
+    match problem {
+        Problem::Poisson | Problem::Neumann => -laplacian,
+        Problem::L2 => exact.value,
+        Problem::Biharmonic => u(at.x[0], at.x[1]).bilaplacian,
+        Problem::LaplaceBeltrami => exact.value - laplacian,
     }
 }
 
-/// A symmetric system as entries of the lower triangle, which may repeat.
-struct System {
-    entries: Vec<Triplet<usize, usize, f64>>,
-    load: Vec<f64>,
+/// Coefficients of unknowns.
+pub(crate) fn coefficients(space: &Space, values: &[f64]) -> Vec<f64> {
+    let row = |row: &Vec<(u32, f64)>| row.iter().map(|&(b, w)| w * values[b as usize]).sum();
+    space.transform.iter().map(row).collect()
 }
 
-type Local = (Vec<u32>, Vec<f64>, Vec<f64>);
-
-fn local(
+/// Solves a problem in a space and measures the error. `embeddings` are those of the coarser spaces, coarsest
+/// first, over all unknowns, with which of them are free.
+pub(crate) fn run(
     space: &Space,
-    tables: &BTreeMap<Kind, Table>,
-    face: usize,
     problem: Problem,
     u: &Solution,
-) -> Result<Local, Error> {
-    let cell = &space.cells[face];
-    let table = &tables[&cell.kind];
-    let points: Vec<u32> = table.columns.iter().map(|&c| cell.points[c]).collect();
-    let positions: Vec<[f64; 2]> = points.iter().map(|&v| space.positions[v as usize]).collect();
-    let n = points.len();
-    let (mut matrix, mut load) = (vec![0.0; n * n], vec![0.0; n]);
-    let mut gradients = vec![[0.0; 2]; n];
-    for (q, &weight) in table.weights.iter().enumerate() {
-        let jets = table.at(q);
-        let at = geometry(jets, &positions, weight).map_err(|value| Error::Jacobian { face, value })?;
-        let exact = u(at.x[0][0], at.x[1][0]);
-        let f = match problem {
-            Problem::Poisson => -(exact.hessian[0] + exact.hessian[2]),
-            Problem::L2 => exact.value,
-        };
-        for (i, jet) in jets.iter().enumerate() {
-            load[i] += f * jet[0] * at.measure;
-            gradients[i] = match problem {
-                Problem::Poisson => at.gradient(jet[1], jet[2]),
-                Problem::L2 => [jet[0], 0.0],
-            };
-        }
-        for i in 0..n {
-            let [a, b] = gradients[i].map(|g| g * at.measure);
-            for (entry, other) in matrix[i * n..=i * n + i].iter_mut().zip(&gradients) {
-                *entry += a * other[0] + b * other[1];
-            }
-        }
+    options: &Options,
+    embeddings: impl FnOnce() -> Result<Vec<(Sparse, Space)>, Error>,
+) -> Result<Outcome, Error> {
+    let plate = problem == Problem::Biharmonic;
+    if plate && options.ends == Ends::Natural {
+        return Err(Error::Combination {
+            what: "a clamped plate with natural boundary",
+            accepted: "the open one, whose functions have any second derivatives there",
+        });
     }
-    Ok((points, matrix, load))
-}
-
-fn assemble(space: &Space, tables: &BTreeMap<Kind, Table>, problem: Problem, u: &Solution) -> Result<System, Error> {
-    let mut system = System {
-        entries: Vec::new(),
-        load: vec![0.0; space.positions.len()],
-    };
-    let faces: Vec<usize> = (0..space.cells.len()).collect();
-    // blocks bound the memory, and their order makes sums the same for any number of threads
-    for block in faces.chunks(4096) {
-        let parts: Vec<Local> = block
-            .par_iter()
-            .map(|&face| local(space, tables, face, problem, u))
-            .collect::<Result<_, _>>()?;
-        for (points, matrix, load) in parts {
-            let n = points.len();
-            for i in 0..n {
-                for &(row, a) in &space.transform[points[i] as usize] {
-                    system.load[row as usize] += a * load[i];
-                    for j in 0..n {
-                        let entry = if j <= i { matrix[i * n + j] } else { matrix[j * n + i] };
-                        for &(column, b) in &space.transform[points[j] as usize] {
-                            if column <= row {
-                                system
-                                    .entries
-                                    .push(Triplet::new(row as usize, column as usize, a * b * entry));
-                            }
-                        }
-                    }
-                }
-            }
-        }
-    }
-    Ok(system)
-}
-
-/// Solves for the unknowns that are not given.
-fn solve(system: &System, given: &BTreeMap<usize, f64>, used: &[bool]) -> Result<Vec<f64>, Error> {
-    let free: Vec<usize> = (0..used.len()).filter(|i| used[*i] && !given.contains_key(i)).collect();
-    let mut number = vec![usize::MAX; used.len()];
-    free.iter().enumerate().for_each(|(k, &i)| number[i] = k);
-    let mut load: Vec<f64> = free.iter().map(|&i| system.load[i]).collect();
-    let mut entries = Vec::with_capacity(system.entries.len());
-    for entry in &system.entries {
-        match (number[entry.row], number[entry.col]) {
-            (usize::MAX, usize::MAX) => {}
-            (usize::MAX, column) => load[column] -= entry.val * given.get(&entry.row).copied().unwrap_or(0.0),
-            (row, usize::MAX) => load[row] -= entry.val * given.get(&entry.col).copied().unwrap_or(0.0),
-            (row, column) => entries.push(Triplet::new(row.max(column), row.min(column), entry.val)),
-        }
-    }
-    let unknowns = free.len();
-    let mut values = vec![0.0; used.len()];
-    given.iter().for_each(|(&i, &value)| values[i] = value);
-    if unknowns == 0 {
-        return Ok(values);
-    }
-    let matrix = SparseColMat::try_new_from_triplets(unknowns, unknowns, &entries)
-        .map_err(|_| Error::NotDefinite { unknowns })?;
-    let factor = matrix
-        .sp_cholesky(faer::Side::Lower)
-        .map_err(|_| Error::NotDefinite { unknowns })?;
-    let right = faer::Mat::from_fn(unknowns, 1, |i, _| load[i]);
-    let result = factor.solve(&right);
-    free.iter().enumerate().for_each(|(k, &i)| values[i] = result[(k, 0)]);
-    Ok(values)
-}
-
-/// The unknowns of the trace that is nearest to u on the boundary in the mean square.
-fn trace(space: &Space, ends: Ends, u: &Solution) -> Result<BTreeMap<usize, f64>, Error> {
-    let count = space.positions.len();
-    let mut system = System {
-        entries: Vec::new(),
-        load: vec![0.0; count],
-    };
-    let fixed = |v: usize| match ends {
-        Ends::Open => v >= space.inner,
-        Ends::Natural => space.boundary[v],
-    };
-    for grid in &space.edges {
-        for &(s, weight) in &line_rule(6) {
-            let jets = bicubic(s, 0.0);
-            let mut x = [[0.0; 2]; 2];
-            let mut row: BTreeMap<usize, f64> = BTreeMap::new();
-            for (jet, &v) in jets.iter().zip(grid) {
-                for (k, coordinate) in space.positions[v as usize].iter().enumerate() {
-                    x[k][0] += coordinate * jet[0];
-                    x[k][1] += coordinate * jet[1];
-                }
-                for &(b, w) in &space.transform[v as usize] {
-                    *row.entry(b as usize).or_default() += w * jet[0];
-                }
-            }
-            row.retain(|&v, _| fixed(v));
-            let measure = weight * x[0][1].hypot(x[1][1]);
-            let value = u(x[0][0], x[1][0]).value;
-            for (&i, &a) in &row {
-                system.load[i] += measure * a * value;
-                for (&j, &b) in row.range(..=i) {
-                    system.entries.push(Triplet::new(i, j, measure * a * b));
-                }
-            }
-        }
-    }
-    let used: Vec<bool> = (0..count).map(fixed).collect();
-    let values = solve(&system, &BTreeMap::new(), &used)?;
-    Ok((0..count).filter(|&v| used[v]).map(|v| (v, values[v])).collect())
-}
-
-/// Norms of the error of the function with these coefficients, and of u itself.
-fn errors(space: &Space, tables: &BTreeMap<Kind, Table>, c: &[f64], u: &Solution) -> Result<[Norms; 2], Error> {
-    let one = |face: usize| -> Result<[[f64; 4]; 2], Error> {
-        let cell = &space.cells[face];
-        let table = &tables[&cell.kind];
-        let points: Vec<u32> = table.columns.iter().map(|&k| cell.points[k]).collect();
-        let positions: Vec<[f64; 2]> = points.iter().map(|&v| space.positions[v as usize]).collect();
-        let mut sums = [[0.0; 4]; 2];
-        // derivatives do not see a constant, and lose fewer digits without it
-        let base = c[points[0] as usize];
-        for (q, &weight) in table.weights.iter().enumerate() {
-            let jets = table.at(q);
-            let at = geometry(jets, &positions, weight).map_err(|value| Error::Jacobian { face, value })?;
-            let mut v = [0.0; 6];
-            for (jet, &point) in jets.iter().zip(&points) {
-                let value = c[point as usize] - base;
-                v.iter_mut().zip(jet).for_each(|(sum, j)| *sum += value * j);
-            }
-            v[0] += base;
-            let gradient = at.gradient(v[1], v[2]);
-            let hessian = at.hessian(&v, gradient);
-            let exact = u(at.x[0][0], at.x[1][0]);
-            for (sum, sign) in sums.iter_mut().zip([1.0, 0.0]) {
-                let value = exact.value - sign * v[0];
-                let g: [f64; 2] = std::array::from_fn(|k| exact.gradient[k] - sign * gradient[k]);
-                let h: [f64; 3] = std::array::from_fn(|k| exact.hessian[k] - sign * hessian[k]);
-                sum[0] += at.measure * value * value;
-                sum[1] += at.measure * (g[0] * g[0] + g[1] * g[1]);
-                sum[2] += at.measure * (h[0] * h[0] + 2.0 * h[1] * h[1] + h[2] * h[2]);
-                sum[3] = f64::max(sum[3], value.abs());
-            }
-        }
-        Ok(sums)
-    };
-    let parts: Vec<[[f64; 4]; 2]> = (0..space.cells.len())
-        .into_par_iter()
-        .map(one)
-        .collect::<Result<_, _>>()?;
-    Ok([0, 1].map(|k| {
-        let sum = |i: usize| parts.iter().map(|part| part[k][i]).sum::<f64>().sqrt();
-        let linf = parts.iter().fold(0.0, |most, part| f64::max(most, part[k][3]));
-        Norms {
-            l2: sum(0),
-            h1: sum(1),
-            h2: sum(2),
-            linf,
-        }
-    }))
-}
-
-/// Solves a problem in a space and measures the error.
-pub(crate) fn run(space: &Space, problem: Problem, u: &Solution, options: &Options) -> Result<Outcome, Error> {
     let start = Instant::now();
-    let tables = space.tables(options.gauss, options.depth, options.scaled);
-    let system = assemble(space, &tables, problem, u)?;
-    let assembled = start.elapsed().as_secs_f64();
-    let count = space.positions.len();
-    let used: Vec<bool> = (0..count)
-        .map(|v| options.ends == Ends::Open || v < space.inner)
-        .collect();
-    let given = match problem {
-        Problem::Poisson => trace(space, options.ends, u)?,
-        Problem::L2 => BTreeMap::new(),
+    let tables = tables(space, options, plate)?;
+    let forms: &[Form] = match problem {
+        Problem::Poisson | Problem::Neumann => &[Form::Stiffness],
+        Problem::L2 => &[Form::Mass],
+        Problem::Biharmonic => &[Form::Plate],
+        Problem::LaplaceBeltrami => &[Form::Stiffness, Form::Mass],
     };
-    let values = solve(&system, &given, &used)?;
-    drop(system);
-    let solved = start.elapsed().as_secs_f64();
-    let coefficients: Vec<f64> = space
-        .transform
+    let load: &Load<'_> = &|at| right_hand_side(problem, u, at);
+    let (mut matrices, mut right) = assemble(space, &tables, forms, Some(load))?;
+    let mut matrix = matrices.swap_remove(0);
+    for other in matrices {
+        matrix.values.iter_mut().zip(&other.values).for_each(|(a, b)| *a += b);
+    }
+    let used = used(space, options.ends);
+    let nitsche = problem == Problem::Poisson && options.dirichlet == Dirichlet::Nitsche;
+    let essential = plate || problem == Problem::Poisson && !nitsche;
+    let held = |space: &Space| match essential {
+        true => fixed(space, options.ends, plate),
+        false => vec![false; space.positions.len()],
+    };
+    let fixed = held(space);
+    let mut values = vec![0.0; used.len()];
+    if nitsche {
+        boundary::nitsche(space, &mut matrix, &mut right, u);
+    }
+    if problem == Problem::Neumann {
+        boundary::flux(space, &mut right, u);
+        balance(space, &tables, &mut right)?;
+    }
+    if essential {
+        values = boundary::projected(space, &fixed, plate, u)?;
+        let known = matrix.times(&values);
+        right.iter_mut().zip(known).for_each(|(b, known)| *b -= known);
+    }
+    let assembled = start.elapsed().as_secs_f64();
+    let dof = used.iter().filter(|used| **used).count();
+    let singular = problem == Problem::Neumann;
+    let solver = options.solver.unwrap_or(default_solver(dof));
+    let free = |space: &Space| -> Numbering {
+        let held = held(space);
+        let used = self::used(space, options.ends);
+        Numbering::new(
+            &used
+                .iter()
+                .zip(&held)
+                .map(|(used, held)| *used && !held)
+                .collect::<Vec<_>>(),
+        )
+    };
+    let mut unknowns = free(space);
+    let (solution, iterations) = match solver {
+        Solver::Cholesky => {
+            if singular {
+                // constants are free: the mean is set afterwards
+                unknowns = unknowns.without_first();
+            }
+            let part = matrix.part(&unknowns, &unknowns);
+            drop(matrix);
+            (part.factor()?.solve(&unknowns.gather(&right)), None)
+        }
+        Solver::Multigrid => {
+            let part = matrix.part(&unknowns, &unknowns);
+            drop(matrix);
+            let embeddings = embeddings()?;
+            let coarse: Vec<Numbering> = embeddings.iter().map(|(_, space)| free(space)).collect();
+            let finer = coarse.iter().skip(1).chain([&unknowns]);
+            let parts = embeddings.iter().zip(&coarse).zip(finer);
+            let parts = parts.map(|(((up, _), from), to)| up.part(to, from)).collect();
+            let (solution, iterations) = Multigrid::new(part, parts, singular)?.solve(&unknowns.gather(&right))?;
+            (solution, Some(iterations))
+        }
+    };
+    unknowns
+        .list
         .iter()
-        .map(|row| row.iter().map(|&(b, w)| w * values[b as usize]).sum())
-        .collect();
-    let [error, norm] = errors(space, &space.tables(6, None, false), &coefficients, u)?;
+        .zip(solution)
+        .for_each(|(&i, value)| values[i] = value);
+    let solved = start.elapsed().as_secs_f64();
+    let measures = measure(space);
+    let mut coefficients = coefficients(space, &values);
+    if singular {
+        let constant = mean_error(space, &measures, &coefficients, u)?;
+        coefficients.iter_mut().for_each(|c| *c += constant);
+    }
+    let [error, norm] = errors(space, &measures, &coefficients, u)?;
     Ok(Outcome {
         faces: space.cells.len(),
-        dof: used.iter().filter(|used| **used).count(),
+        dof,
         points: space.cells.iter().map(|cell| tables[&cell.kind].weights.len()).sum(),
         error,
         norm,
+        solver,
+        iterations,
         seconds: [assembled, solved - assembled, start.elapsed().as_secs_f64() - solved],
+        coefficients,
     })
+}
+
+/// Takes a constant from the right-hand side so that it vanishes on constants, whose unknowns are all 1: what
+/// quadrature leaves there would be a source at one point otherwise.
+fn balance(space: &Space, tables: &Tables, right: &mut [f64]) -> Result<(), Error> {
+    let mut weights = vec![0.0; right.len()];
+    for (row, load) in space.transform.iter().zip(loads(space, tables, &|_| 1.0)?) {
+        row.iter().for_each(|&(id, w)| weights[id as usize] += w * load);
+    }
+    let excess = right.iter().sum::<f64>() / weights.iter().sum::<f64>();
+    right.iter_mut().zip(weights).for_each(|(b, w)| *b -= excess * w);
+    Ok(())
+}
+
+/// The mean of u less that of the function with these coefficients.
+fn mean_error(space: &Space, tables: &Tables, coefficients: &[f64], u: &Solution) -> Result<f64, Error> {
+    let one: &Load<'_> = &|_| 1.0;
+    let value: &Load<'_> = &|at| u(at.x[0], at.x[1]).value;
+    let weights = loads(space, tables, one)?;
+    let of_u: f64 = loads(space, tables, value)?.iter().sum();
+    let area: f64 = weights.iter().sum();
+    let own: f64 = weights.iter().zip(coefficients).map(|(w, c)| w * c).sum();
+    Ok((of_u - own) / area)
 }

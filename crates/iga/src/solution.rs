@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-/// Value, gradient and Hessian `[xx, xy, yy]` at a point.
+/// Value and derivatives at a point.
 #[derive(Clone, Copy, Debug)]
 pub struct Values {
     /// The value.
@@ -11,6 +11,8 @@ pub struct Values {
     pub gradient: [f64; 2],
     /// The Hessian: xx, xy, yy.
     pub hessian: [f64; 3],
+    /// `laplace^2 u`, on which plates are loaded.
+    pub bilaplacian: f64,
 }
 
 /// A function of the plane that is known with its derivatives.
@@ -31,6 +33,7 @@ pub fn named(name: &str) -> Option<fn(f64, f64) -> Values> {
                 value,
                 gradient,
                 hessian: [-second * value, second * cx * cy, -second * value],
+                bilaplacian: 4.0 * second * second * value,
             }
         },
         "exp" => |x, y| {
@@ -39,6 +42,7 @@ pub fn named(name: &str) -> Option<fn(f64, f64) -> Values> {
                 value,
                 gradient: [0.5 * value; 2],
                 hessian: [0.25 * value; 3],
+                bilaplacian: 0.25 * value,
             }
         },
         "mix" => |x, y| {
@@ -47,17 +51,20 @@ pub fn named(name: &str) -> Option<fn(f64, f64) -> Values> {
                 value: cosine + 0.5 * x * y * y,
                 gradient: [-2.0 * sine + 0.5 * y * y, sine + x * y],
                 hessian: [-4.0 * cosine, 2.0 * cosine + y, -cosine + x],
+                bilaplacian: 25.0 * cosine,
             }
         },
         "lin" | "linear" => |x, y| Values {
             value: 1.0 + 2.0 * x - 3.0 * y,
             gradient: [2.0, -3.0],
             hessian: [0.0; 3],
+            bilaplacian: 0.0,
         },
         "quadratic" => |x, y| Values {
             value: x * x - 2.0 * x * y + 3.0 * y * y,
             gradient: [2.0 * x - 2.0 * y, 6.0 * y - 2.0 * x],
             hessian: [2.0, -2.0, 6.0],
+            bilaplacian: 0.0,
         },
         _ => return None,
     })

@@ -41,7 +41,9 @@ pub(crate) enum Kind {
 #[derive(Debug)]
 pub(crate) struct Space {
     /// Coordinates of control points and ghosts.
-    pub positions: Vec<[f64; 2]>,
+    pub positions: Vec<[f64; 3]>,
+    /// Whether all of it is in the plane z = 0, where orientation is told.
+    pub planar: bool,
     pub cells: Vec<Cell>,
     /// Control points without ghosts.
     pub inner: usize,
@@ -49,13 +51,17 @@ pub(crate) struct Space {
     pub boundary: Vec<bool>,
     /// Coefficients in unknowns.
     pub transform: Vec<Vec<(u32, f64)>>,
+    /// Unknowns in coefficients, as far as the ends have them.
+    pub inverse: Vec<Vec<(u32, f64)>>,
+    /// The ghosts of boundary vertices.
+    pub layers: Vec<(u32, Corner)>,
     /// The grid of 16 points of each boundary edge: from (0, 0) to (1, 0), the face above.
     pub edges: Vec<[u32; 16]>,
     pub around: BTreeMap<usize, Around>,
 }
 
 /// The mesh with its ghosts.
-fn extended(mesh: &Mesh, topology: &Topology) -> Result<(Mesh, Vec<(u32, Corner)>), Error> {
+pub(crate) fn extended(mesh: &Mesh, topology: &Topology) -> Result<(Mesh, Vec<(u32, Corner)>), Error> {
     let mut points = mesh.points().to_vec();
     let mut layers = Vec::new();
     let mut corners = mesh.corners().to_vec();
@@ -99,7 +105,8 @@ fn extended(mesh: &Mesh, topology: &Topology) -> Result<(Mesh, Vec<(u32, Corner)
 }
 
 /// The ghosts of a boundary vertex, and what they depend on.
-enum Corner {
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Corner {
     /// The inner neighbour and the ghost.
     One(u32, u32),
     /// At a corner of the domain: neighbours (1,0), (0,1), (1,1); ghosts (-1,0), (-1,-1), (0,-1).
@@ -114,10 +121,22 @@ fn across(ends: Ends) -> [[f64; 3]; 3] {
     }
 }
 
-/// Coefficients in unknowns; `None` where two corners of the domain are neighbours.
-fn transform(count: usize, layers: &[(u32, Corner)], ends: Ends) -> Option<Vec<Vec<(u32, f64)>>> {
+/// The inverse of [`across`]; natural ends have no unknowns beyond the boundary.
+fn back_across(ends: Ends) -> [[f64; 3]; 3] {
+    match ends {
+        Ends::Open => [
+            [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0],
+            [0.0, 2.0 / 3.0, 1.0 / 3.0],
+            [0.0, 0.0, 1.0],
+        ],
+        Ends::Natural => [[0.0; 3], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+    }
+}
+
+/// Coefficients in unknowns by the relation across the boundary, or the other way round; `None` where two
+/// corners of the domain are neighbours.
+fn transform(count: usize, layers: &[(u32, Corner)], line: [[f64; 3]; 3]) -> Option<Vec<Vec<(u32, f64)>>> {
     let mut rows: Vec<Vec<(u32, f64)>> = (0..count as u32).map(|i| vec![(i, 1.0)]).collect();
-    let line = across(ends);
     let kept = |row: Vec<(u32, f64)>| row.into_iter().filter(|(_, w)| *w != 0.0).collect();
     let single = |(v, corner): &(u32, Corner)| match corner {
         Corner::One(_, ghost) => Some((*v, *ghost)),
@@ -171,12 +190,12 @@ fn grid(topology: &Topology, half: u32) -> Option<[u32; 16]> {
     Some(points)
 }
 
-/// The points of two rings around a vertex, sector 0 at a spoke.
-fn two_rings(topology: &Topology, half: u32, valence: usize) -> Option<Vec<u32>> {
+/// The points of some rings around a vertex, sector 0 at a spoke.
+pub(crate) fn rings(topology: &Topology, half: u32, valence: usize, rings: usize) -> Option<Vec<u32>> {
     let numbering = Numbering {
         fan: Fan::Closed(valence),
         lattice: Lattice::Vertex,
-        rings: 2,
+        rings,
     };
     let mut points = vec![0; numbering.count()];
     let straight = |half: u32| topology.turned_back(topology.next(half));
@@ -228,7 +247,7 @@ impl Space {
             let mut centres = halves.clone().filter(|&half| special(topology.origin(half)));
             if let Some(half) = centres.next() {
                 let n = valence[topology.origin(half) as usize];
-                let Some(points) = two_rings(&topology, half, n) else {
+                let Some(points) = rings(&topology, half, n, 2) else {
                     return Ok(None);
                 };
                 let others = points.iter().skip(1).any(|&v| special(v));
@@ -278,23 +297,28 @@ impl Space {
             .filter(|&half| coarse.twin(half).is_none())
             .map(|half| grid(&topology, half))
             .collect();
-        let transform = transform(full.points().len(), &layers, ends);
-        let (Some(edges), Some(transform)) = (edges, transform) else {
+        let [transform, inverse] =
+            [across(ends), back_across(ends)].map(|line| transform(full.points().len(), &layers, line));
+        let (Some(edges), Some(transform), Some(inverse)) = (edges, transform, inverse) else {
             return Ok(None);
         };
+        let planar = full.points().iter().all(|p| p.z == 0.0);
         Ok(Some(Space {
-            positions: full.points().iter().map(|p| [p.x, p.y]).collect(),
+            positions: full.points().iter().map(|p| [p.x, p.y, p.z]).collect(),
+            planar,
             cells,
             inner,
             boundary,
             transform,
+            inverse,
+            layers,
             edges,
             around,
         }))
     }
 
-    /// The tables of all kinds of faces.
-    pub fn tables(&self, order: usize, depth: Option<usize>, scaled: bool) -> BTreeMap<Kind, Table> {
+    /// The tables of all kinds of faces; `depth` is that of an extraordinary vertex.
+    pub fn tables(&self, order: usize, depth: &dyn Fn(&Around) -> usize, scaled: bool) -> BTreeMap<Kind, Table> {
         let mut tables = BTreeMap::new();
         for cell in &self.cells {
             tables.entry(cell.kind).or_insert_with(|| match cell.kind {
@@ -302,7 +326,7 @@ impl Space {
                 Kind::Near(n, at) => self.around[&n].near(order, at),
                 Kind::Irregular(n) => {
                     let around = &self.around[&n];
-                    around.irregular(order, depth.unwrap_or_else(|| around.depth()), scaled)
+                    around.irregular(order, depth(around), scaled)
                 }
             });
         }

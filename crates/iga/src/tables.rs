@@ -8,12 +8,15 @@
 
 use crate::{Error, MOST_ANNULI};
 use eigenring_scheme::{DenseNet, Level, Site, refine};
-use eigenring_spectral::{LocalSystem, Matrix, local_matrix, numbering};
+use eigenring_spectral::{Eigenvalue, LocalSystem, Matrix, local_matrix, numbering};
 use eigenring_spline::quadrature::gauss_legendre;
 use eigenring_spline::uniform;
 
 /// The part of the area that annuli may leave out: rounding.
 const REST: f64 = 1e-16;
+
+/// The part of the energy of second derivatives that annuli may leave out.
+const ENERGY: f64 = 1e-10;
 
 /// Value, s, t, ss, st, tt.
 pub(crate) type Jet = [f64; 6];
@@ -116,11 +119,17 @@ fn patches(of: &[Patch<'_>], columns: Vec<usize>, order: usize) -> Table {
 #[derive(Debug)]
 pub(crate) struct Around {
     pub lambda: f64,
+    /// The largest of the others over the one of the characteristic map: by its square the energies of
+    /// second derivatives change from annulus to annulus.
+    pub ratio: f64,
+    /// The position of the centre in two rings.
+    pub limit: Vec<f64>,
     s: Matrix<f64>,
     deflated: Matrix<f64>,
     inner: Matrix<f64>,
     outer: Matrix<f64>,
     level: Level<f64>,
+    one: Matrix<f64>,
 }
 
 fn product(a: &Matrix<f64>, b: &Matrix<f64>) -> Matrix<f64> {
@@ -147,10 +156,8 @@ impl Around {
         };
         let system = LocalSystem::new(level, 2)?;
         let limit = system.limit_position()?;
-        let lambda = system
-            .spectrum()?
-            .subdominant()
-            .map_or(f64::NAN, |value| value.modulus());
+        let spectrum = system.spectrum()?;
+        let lambda = spectrum.subdominant().map_or(f64::NAN, |value| value.modulus());
         let most = REST.powf(0.5 / MOST_ANNULI as f64);
         if !(0.0 < lambda && lambda <= most) {
             return Err(Error::Lambda {
@@ -160,15 +167,26 @@ impl Around {
                 annuli: MOST_ANNULI,
             });
         }
+        // beside the dominant one and the pair of block 1 that makes up the characteristic map
+        let mut others = spectrum.eigenvalues[1..].to_vec();
+        let tangent = others
+            .iter()
+            .position(|value| value.fourier == Some(1) && value.multiplicity == 2);
+        tangent.map(|at| others.remove(at));
+        let mu = others.first().map_or(0.0, Eigenvalue::modulus);
+        let tangent = tangent.map_or(lambda, |at| spectrum.eigenvalues[at + 1].modulus());
         let s = local_matrix(level, 2)?;
         let deflated = Matrix::from_fn(s.rows(), s.columns(), |i, j| s[(i, j)] - limit[j]);
         Ok(Around {
             lambda,
+            ratio: mu / tangent,
+            limit,
             s,
             deflated,
             inner: from(2, 3)?,
             outer: from(3, 5)?,
             level: level.clone(),
+            one: local_matrix(level, 1)?,
         })
     }
 
@@ -188,9 +206,37 @@ impl Around {
         })
     }
 
+    /// For tests: derivatives by the powers of the matrix itself.
+    #[cfg(test)]
+    pub fn forget_deflation(&mut self) {
+        self.deflated = self.s.clone();
+    }
+
     /// The annuli that leave less than [`REST`] of the area.
     pub fn depth(&self) -> usize {
         (REST.ln() / (2.0 * self.lambda.ln())).ceil() as usize
+    }
+
+    /// The annuli that leave less than [`ENERGY`] of the energy of second derivatives as well; `None` if they
+    /// are too many, or none suffice as the functions are not in H2 (Reif and Schroeder 2001).
+    pub fn plate_depth(&self) -> Option<usize> {
+        let depth = (ENERGY.ln() / (2.0 * self.ratio.ln())).ceil();
+        let own = self.depth();
+        (self.ratio < 1.0 && depth <= MOST_ANNULI as f64).then(|| own.max(depth as usize))
+    }
+
+    /// The largest ratio with which [`MOST_ANNULI`] suffice for the energy of second derivatives.
+    pub fn most_ratio(&self) -> f64 {
+        ENERGY.powf(0.5 / MOST_ANNULI as f64)
+    }
+
+    /// The rule of a point of the next level over one ring, in the order of its numbering: the centre, the
+    /// first edge, the first face.
+    pub fn rule(&self, kind: usize) -> &[f64] {
+        let [x, y] = [[0, 0], [2, 0], [2, 2]][kind];
+        let site = Site::new(self.level.fan(), 0, x, y).expect("of one ring");
+        self.one
+            .row(numbering(&self.level, 1).index(site).expect("of one ring"))
     }
 
     /// A face at the centre, in sector 0, over the points of two rings.

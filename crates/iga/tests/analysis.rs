@@ -1,35 +1,23 @@
 //! Patch test, reference errors, rates and refused input.
 
-use eigenring_iga::{Ends, Error, Norms, Options, Problem, Study, solution};
+use crate::common::{rules, warped};
+use eigenring_iga::{Domain, Ends, Error, Norms, Options, Problem, Study, solution};
+use eigenring_scheme::Definition;
 use eigenring_scheme::user::{Reading, UserScheme};
-use eigenring_scheme::{Definition, Spec};
-use eigenring_surface::{Mesh, Point3, Rules, shapes};
-
-fn rules(name: &str) -> Rules {
-    Rules::new(Definition::Family(name.parse::<Spec>().expect("a scheme")))
-}
+use eigenring_surface::{Mesh, Rules, shapes};
 
 fn options(ends: Ends, gauss: usize) -> Options {
     Options {
         ends,
         gauss,
-        depth: None,
-        scaled: false,
+        ..Options::default()
     }
-}
-
-fn warped(mut mesh: Mesh) -> Mesh {
-    for p in mesh.points_mut() {
-        let (x, y) = (p.x, p.y);
-        *p = Point3::new(x + 0.08 * (2.0 * y + 1.0).sin(), y + 0.08 * (3.0 * x - 0.5).sin(), 0.0);
-    }
-    mesh
 }
 
 fn error(mesh: &Mesh, scheme: &str, name: &str, problem: Problem, level: usize, options: &Options) -> Norms {
     let rules = rules(scheme);
     let u = solution::named(name).expect("a solution");
-    let study = Study::new(mesh, &rules).expect("a study");
+    let study = Study::new(mesh, &rules, Domain::Planar).expect("a study");
     study.level(level, problem, &u, options).expect("an outcome").error
 }
 
@@ -116,12 +104,13 @@ fn rates_are_the_predicted_ones() {
             )
         });
         let study_rules = rules(scheme);
-        let predicted = Study::new(&shapes::fan(6), &study_rules)
+        let predicted = Study::new(&shapes::fan(6), &study_rules, Domain::Planar)
             .expect("a study")
-            .predicted(Ends::Open);
+            .predicted(Problem::Poisson, Ends::Open);
         let rate = |of: fn(&Norms) -> f64| (of(&all[0]) / of(&all[1])).log2();
         let observed = [rate(|e| e.l2), rate(|e| e.h1), rate(|e| e.linf), rate(|e| e.h2)];
         for (observed, predicted) in observed.iter().zip(predicted) {
+            let predicted = predicted.expect("of this problem all are predicted");
             assert!(
                 (observed - predicted).abs() < 0.1,
                 "{scheme}: {observed} for {predicted}"
@@ -134,10 +123,9 @@ fn rates_are_the_predicted_ones() {
 fn a_scaled_tail_stands_for_the_annuli_left_out() {
     let with = |scaled: bool| {
         let options = Options {
-            ends: Ends::Open,
-            gauss: 4,
             depth: Some(16),
             scaled,
+            ..Options::default()
         };
         error(&shapes::fan(6), "catmull-clark", "lin", Problem::Poisson, 2, &options).h1
     };
@@ -148,13 +136,19 @@ fn a_scaled_tail_stands_for_the_annuli_left_out() {
 #[test]
 fn what_has_no_space_is_refused() {
     let cc = rules("catmull-clark");
-    assert!(matches!(Study::new(&shapes::cube(), &cc), Err(Error::NotPlanar { .. })));
+    assert!(matches!(
+        Study::new(&shapes::cube(), &cc, Domain::Planar),
+        Err(Error::NotPlanar { .. })
+    ));
     let dual = rules("doo-sabin");
-    assert!(matches!(Study::new(&shapes::fan(5), &dual), Err(Error::NotBicubic(_))));
+    assert!(matches!(
+        Study::new(&shapes::fan(5), &dual, Domain::Planar),
+        Err(Error::NotBicubic(_))
+    ));
     // levels that differ, and rules that reach further or are special where the mesh is regular
     let tension = rules("tension:order=4,u0=2");
     assert!(matches!(
-        Study::new(&shapes::fan(5), &tension),
+        Study::new(&shapes::fan(5), &tension, Domain::Planar),
         Err(Error::NotBicubic(_))
     ));
     let file = |name: &str| {
@@ -165,16 +159,16 @@ fn what_has_no_space_is_refused() {
     };
     let two_rings = file("tworing5");
     assert!(matches!(
-        Study::new(&shapes::fan(5), &two_rings),
+        Study::new(&shapes::fan(5), &two_rings, Domain::Planar),
         Err(Error::NotBicubic(_))
     ));
     let at_four = file("jordan-one-ring-n4");
-    assert!(Study::new(&shapes::fan(4), &at_four).is_err());
+    assert!(Study::new(&shapes::fan(4), &at_four, Domain::Planar).is_err());
     // the levels of u0 = 1 are one
-    assert!(Study::new(&shapes::fan(5), &rules("tension:order=4")).is_ok());
+    assert!(Study::new(&shapes::fan(5), &rules("tension:order=4"), Domain::Planar).is_ok());
     let mut folded = shapes::fan(5);
     folded.points_mut().iter_mut().for_each(|p| p.x = -p.x);
-    let study = Study::new(&folded, &cc).expect("a study");
+    let study = Study::new(&folded, &cc, Domain::Planar).expect("a study");
     let u = solution::named("lin").expect("a solution");
     let outcome = study.level(0, Problem::L2, &u, &options(Ends::Open, 4));
     assert!(matches!(outcome, Err(Error::Jacobian { .. })));

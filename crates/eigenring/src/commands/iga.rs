@@ -1,24 +1,30 @@
 //! `eigenring iga`: Galerkin solutions on subdivision spaces.
 
+use super::UNSTORED;
+use super::plot::{DPI, PictureFormat};
 use crate::args::{self, OneScheme};
 use crate::error::Error;
+use crate::files::{self, Written};
 use crate::memory;
 use crate::output::Output;
 use crate::progress::{Terminal, note};
 use crate::threads::Threads;
 use crate::valences::OptionalValences;
 use clap::{Args, Subcommand, ValueEnum};
-use eigenring_atlas::analysis::{Request, Task as Kind, rates, study};
+use eigenring_atlas::analysis::studies::{StudyEntry, find};
+use eigenring_atlas::analysis::{Membranes, Request, Task as Kind, rates, spectra, study};
 use eigenring_atlas::meshes;
+use eigenring_atlas::progress::each;
 use eigenring_atlas::table::{Format, pretty};
-use eigenring_iga::{Ends, Options};
-use std::path::PathBuf;
+use eigenring_iga::{Dirichlet, Domain, Ends, Membrane, Options, Solver};
+use eigenring_surface::{Mesh, Rules};
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Solve on the basis functions of a subdivision scheme, and measure the errors.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  eigenring make fan -N 6 -o fan6.obj\n  eigenring iga poisson fan6.obj --scheme lambda:lambda=0.39 --solution exp --levels 4\n  eigenring iga patch-test fan6.obj --scheme catmull-clark --tail scaled\n  eigenring iga rates --scheme catmull-clark -N 3..12"
+    after_help = "Examples:\n  eigenring make fan -N 6 -o fan6.obj\n  eigenring iga poisson fan6.obj --scheme lambda:lambda=0.39 --solution exp --levels 4\n  eigenring iga patch-test fan6.obj --scheme catmull-clark --tail scaled\n  eigenring iga spectrum cube.obj --scheme catmull-clark --bc closed --sphere --count 9\n  eigenring iga rates --scheme catmull-clark -N 3..12"
 )]
 pub struct Arguments {
     #[command(subcommand)]
@@ -31,10 +37,32 @@ enum Task {
     Poisson(Solve),
     /// The projection in the mean square
     L2(Solve),
+    /// A clamped plate with a manufactured solution
+    Biharmonic(Solve),
     /// Poisson's equation with a linear solution, which must be met: exit 1 if it is not
     PatchTest(Solve),
+    /// The lowest eigenvalues of the Laplacian: of membranes in the plane, of closed surfaces
+    Spectrum(Eigenvalues),
     /// The rates that the subdominant eigenvalue predicts, by valence
     Rates(Rates),
+    /// Studies over meshes, schemes and levels, as pictures with their numbers
+    Study(Studies),
+}
+
+/// Which studies are run.
+#[derive(Args, Debug)]
+struct Studies {
+    /// convergence, annuli, boundary, plates, spectra
+    #[arg(value_name = "NAME", required = true)]
+    names: Vec<String>,
+    /// The number of levels, by default each study's own
+    #[arg(long)]
+    levels: Option<usize>,
+    /// The folder of the pictures and tables, by default eigenring-out/analysis
+    #[arg(long, value_name = "FOLDER")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    threads: Threads,
 }
 
 /// Which rates are asked for.
@@ -60,22 +88,42 @@ enum Tail {
     Scaled,
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+enum Data {
+    Projection,
+    Nitsche,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+enum Method {
+    Cholesky,
+    Multigrid,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+enum Condition {
+    Dirichlet,
+    Neumann,
+    Closed,
+}
+
+/// A mesh, a scheme and how integrals are taken.
 #[derive(Args, Debug)]
-struct Solve {
-    /// The control mesh, planar with z = 0: .obj, .off or .ply
+struct Setting {
+    /// The control mesh: .obj, .off or .ply; planar with z = 0, or closed
     #[arg(value_name = "FILE")]
     file: PathBuf,
     #[command(flatten)]
     scheme: OneScheme,
-    /// sin, exp, mix, lin or quadratic
-    #[arg(long, value_name = "NAME", default_value = "exp")]
-    solution: String,
-    /// The number of levels, 1 to 8
+    /// The number of levels, 1 to 10
     #[arg(long, default_value = "4")]
     levels: usize,
     /// The solution beyond the boundary
     #[arg(long, value_enum, default_value = "open")]
     boundary: Beyond,
+    /// With --bc closed: fit the unit sphere about the origin on every level
+    #[arg(long)]
+    sphere: bool,
     /// Gauss points of an element in each direction, 2 to 10
     #[arg(long, default_value = "4")]
     gauss: usize,
@@ -94,13 +142,97 @@ struct Solve {
     output: Output,
 }
 
+#[derive(Args, Debug)]
+struct Solve {
+    #[command(flatten)]
+    setting: Setting,
+    /// sin, exp, mix, lin or quadratic, of x and y
+    #[arg(long, value_name = "NAME", default_value = "exp")]
+    solution: String,
+    /// Of poisson: what is given on the boundary. A closed surface has none, and u is added to the equation
+    #[arg(long, value_enum)]
+    bc: Option<Condition>,
+    /// How values on the boundary are enforced
+    #[arg(long, value_enum)]
+    dirichlet: Option<Data>,
+    /// By default cholesky up to 200000 unknowns
+    #[arg(long, value_enum)]
+    solver: Option<Method>,
+}
+
+#[derive(Args, Debug)]
+struct Eigenvalues {
+    #[command(flatten)]
+    setting: Setting,
+    /// The boundary of the membrane, or none
+    #[arg(long, value_enum, default_value = "neumann")]
+    bc: Condition,
+    /// How many eigenvalues, 1 to 200
+    #[arg(long, default_value = "20")]
+    count: usize,
+}
+
+impl Setting {
+    fn options(&self) -> Result<Options, Error> {
+        let depth = match self.depth.as_str() {
+            "auto" => None,
+            text => {
+                let depth = text.parse();
+                Some(depth.map_err(|_| Error::range("depth", text, "auto and 1 to 200"))?)
+            }
+        };
+        Ok(Options {
+            ends: match self.boundary {
+                Beyond::Open => Ends::Open,
+                Beyond::Natural => Ends::Natural,
+            },
+            gauss: self.gauss,
+            depth,
+            scaled: self.tail == Tail::Scaled,
+            ..Options::default()
+        })
+    }
+
+    fn domain(&self, bc: Condition) -> Result<Domain, Error> {
+        match (bc, self.sphere) {
+            (Condition::Closed, true) => Ok(Domain::Sphere),
+            (Condition::Closed, false) => Ok(Domain::Closed),
+            (_, true) => Err(Error::usage("--sphere is for --bc closed", "--bc closed --sphere")),
+            (_, false) => Ok(Domain::Planar),
+        }
+    }
+
+    /// The mesh with its rules.
+    fn surface(&self) -> Result<(Mesh, Rules), Error> {
+        let (mesh, notices) = meshes::read_surface(&self.file)?;
+        notices.iter().for_each(|notice| note(notice));
+        let scheme = self.scheme.clone().name()?.into();
+        let rules = meshes::rules(&scheme, &mesh, &[], &args::tuner())?;
+        Ok((mesh, rules))
+    }
+
+    fn fits(&self, bytes: f64) -> Result<(), Error> {
+        memory::check(bytes, self.force, &format!("{} levels", self.levels))
+    }
+}
+
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
         match self.problem {
-            Task::Poisson(solve) => solve.run(Kind::Poisson),
+            Task::Poisson(solve) => {
+                let kind = match solve.bc {
+                    None | Some(Condition::Dirichlet) => Kind::Poisson,
+                    Some(Condition::Neumann) => Kind::Neumann,
+                    Some(Condition::Closed) => Kind::LaplaceBeltrami,
+                };
+                solve.run(kind)
+            }
+            Task::Biharmonic(solve) => solve.run(Kind::Biharmonic),
+            Task::Spectrum(eigenvalues) => eigenvalues.run(),
             Task::L2(solve) => solve.run(Kind::L2),
             Task::PatchTest(solve) => solve.run(Kind::PatchTest),
             Task::Rates(rates) => rates.run(),
+            Task::Study(studies) => studies.run(),
         }
     }
 }
@@ -125,44 +257,109 @@ impl Rates {
 
 impl Solve {
     fn run(self, task: Kind) -> Result<ExitCode, Error> {
-        self.threads.start()?;
-        let format = self.output.format()?;
-        let depth = match self.depth.as_str() {
-            "auto" => None,
-            text => {
-                let depth = text.parse();
-                Some(depth.map_err(|_| Error::range("depth", text, "auto and 1 to 200"))?)
-            }
-        };
+        let setting = &self.setting;
+        setting.threads.start()?;
+        let format = setting.output.format()?;
+        let bc = self.bc.unwrap_or(Condition::Dirichlet);
+        let without = matches!(task, Kind::L2 | Kind::Biharmonic | Kind::PatchTest);
+        if without && bc != Condition::Dirichlet && task != Kind::L2 || task == Kind::L2 && bc == Condition::Neumann {
+            return Err(Error::usage(
+                "this problem has no choice of --bc",
+                "--bc with poisson and spectrum, --bc closed with l2",
+            ));
+        }
+        if self.dirichlet.is_some() && !matches!(task, Kind::Poisson | Kind::PatchTest) {
+            return Err(Error::usage(
+                "--dirichlet has no effect here",
+                "--dirichlet with poisson and patch-test",
+            ));
+        }
         let request = Request {
             task,
-            solution: self.solution,
-            levels: self.levels,
+            solution: self.solution.clone(),
+            domain: setting.domain(bc)?,
+            levels: setting.levels,
             options: Options {
-                ends: match self.boundary {
-                    Beyond::Open => Ends::Open,
-                    Beyond::Natural => Ends::Natural,
+                dirichlet: match self.dirichlet {
+                    None | Some(Data::Projection) => Dirichlet::Projection,
+                    Some(Data::Nitsche) => Dirichlet::Nitsche,
                 },
-                gauss: self.gauss,
-                depth,
-                scaled: self.tail == Tail::Scaled,
+                solver: self.solver.map(|method| match method {
+                    Method::Cholesky => Solver::Cholesky,
+                    Method::Multigrid => Solver::Multigrid,
+                }),
+                ..setting.options()?
             },
         };
-        let (mesh, notices) = meshes::read_surface(&self.file)?;
-        notices.iter().for_each(|notice| note(notice));
-        let scheme = self.scheme.name()?.into();
-        let rules = meshes::rules(&scheme, &mesh, &[], &args::tuner())?;
-        let fits = |bytes: f64| memory::check(bytes, self.force, &format!("{} levels", self.levels));
-        let answer = study(&request, &self.file, &mesh, &rules, fits, &Terminal)?;
+        let (mesh, rules) = setting.surface()?;
+        let fits = |bytes: f64| setting.fits(bytes);
+        let answer = study(&request, &setting.file, &mesh, &rules, fits, &Terminal)?;
         let text = match format {
             Format::Json => pretty(&answer.json()),
             format => answer.table().render(format),
         };
-        self.output.emit(&text)?;
+        setting.output.emit(&text)?;
         Ok(if answer.holds() {
             ExitCode::SUCCESS
         } else {
             ExitCode::FAILURE
         })
+    }
+}
+
+impl Eigenvalues {
+    fn run(self) -> Result<ExitCode, Error> {
+        let setting = &self.setting;
+        setting.threads.start()?;
+        let format = setting.output.format()?;
+        let request = Membranes {
+            domain: setting.domain(self.bc)?,
+            membrane: match self.bc {
+                Condition::Dirichlet => Membrane::Held,
+                Condition::Neumann | Condition::Closed => Membrane::Free,
+            },
+            count: self.count,
+            levels: setting.levels,
+            options: setting.options()?,
+        };
+        let (mesh, rules) = setting.surface()?;
+        let fits = |bytes: f64| setting.fits(bytes);
+        let answer = spectra(&request, &setting.file, &mesh, &rules, fits, &Terminal)?;
+        let text = match format {
+            Format::Json => pretty(&answer.json()),
+            format => answer.table().render(format),
+        };
+        setting.output.emit(&text)?;
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// The most levels of a study: the last has 4096 elements for each face.
+const MOST_LEVELS: usize = 7;
+
+impl Studies {
+    fn run(self) -> Result<ExitCode, Error> {
+        if let Some(levels) = self.levels.filter(|levels| !(2..=MOST_LEVELS).contains(levels)) {
+            return Err(Error::range("levels", levels, format!("2 to {MOST_LEVELS}")));
+        }
+        let entries: Vec<&StudyEntry> = self.names.iter().map(|name| find(name)).collect::<Result<_, _>>()?;
+        self.threads.start()?;
+        let out = self.out.unwrap_or_else(|| Path::new(UNSTORED).join("analysis"));
+        files::check_writable(&out, &out)?;
+        let tuner = args::tuner();
+        let drawn = each(&Terminal, "studies", &entries, |entry| -> Result<_, Error> {
+            Ok((entry.build)(self.levels.unwrap_or(entry.levels), &tuner)?)
+        })?;
+        let mut written = Written::default();
+        for drawing in drawn.into_iter().flatten() {
+            let picture = PictureFormat::Png.draw(&drawing.figure, DPI)?;
+            written.write(out.join(format!("{}.png", drawing.stem)), &picture)?;
+            for (suffix, table) in &drawing.data {
+                let text = table.render(Format::Csv);
+                written.write(out.join(format!("{}{suffix}.csv", drawing.stem)), text.as_bytes())?;
+            }
+        }
+        files::emit(None, written.list().as_bytes())?;
+        Ok(ExitCode::SUCCESS)
     }
 }

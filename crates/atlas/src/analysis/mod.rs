@@ -1,11 +1,18 @@
 //! Finite elements on subdivision basis functions: one problem on the levels of a mesh, and predicted rates.
 
+mod spectra;
+pub mod studies;
+
+pub use spectra::{Membranes, Spectra, spectra};
+
 use crate::compare::compare;
 use crate::error::Error;
 use crate::progress::Progress;
 use crate::schemes::{SchemeName, Tuner};
 use crate::table::Table;
-use eigenring_iga::{Ends, Norms, Options, Outcome, Problem, Study, accepts, predicted, solution};
+use eigenring_iga::{
+    Dirichlet, Domain, Ends, Norms, Options, Outcome, Problem, Solver, Study, accepts, predicted, solution,
+};
 use eigenring_scheme::user::Reading;
 use eigenring_surface::{Mesh, Rules};
 use serde_json::{Map, Value, json};
@@ -16,6 +23,12 @@ use std::path::{Path, PathBuf};
 pub enum Task {
     /// Poisson's equation with a manufactured solution.
     Poisson,
+    /// The same with fluxes on the boundary.
+    Neumann,
+    /// Laplace and Beltrami's operator plus 1 on a closed surface.
+    LaplaceBeltrami,
+    /// A clamped plate.
+    Biharmonic,
     /// The projection in the mean square.
     L2,
     /// Poisson's equation with a linear solution, which must be met.
@@ -25,7 +38,8 @@ pub enum Task {
 impl Task {
     fn name(self) -> &'static str {
         match self {
-            Task::Poisson => "poisson",
+            Task::Poisson | Task::Neumann | Task::LaplaceBeltrami => "poisson",
+            Task::Biharmonic => "biharmonic",
             Task::L2 => "l2",
             Task::PatchTest => "patch-test",
         }
@@ -34,7 +48,20 @@ impl Task {
     fn problem(self) -> Problem {
         match self {
             Task::Poisson | Task::PatchTest => Problem::Poisson,
+            Task::Neumann => Problem::Neumann,
+            Task::LaplaceBeltrami => Problem::LaplaceBeltrami,
+            Task::Biharmonic => Problem::Biharmonic,
             Task::L2 => Problem::L2,
+        }
+    }
+
+    /// What is known on the boundary.
+    fn condition(self) -> Option<&'static str> {
+        match self {
+            Task::Poisson | Task::PatchTest | Task::Biharmonic => Some("dirichlet"),
+            Task::Neumann => Some("neumann"),
+            Task::LaplaceBeltrami => Some("closed"),
+            Task::L2 => None,
         }
     }
 }
@@ -46,14 +73,16 @@ pub struct Request {
     pub task: Task,
     /// A name of [`solution::NAMES`]; the patch test has its own.
     pub solution: String,
+    /// What the mesh is the control mesh of.
+    pub domain: Domain,
     /// How many levels, from 1.
     pub levels: usize,
     /// Quadrature and boundary.
     pub options: Options,
 }
 
-/// The most levels: the last has 16384 elements for each face.
-const MOST_LEVELS: usize = 8;
+/// The most levels: the last has 262144 elements for each face.
+const MOST_LEVELS: usize = 10;
 
 /// What the errors of a linear solution must not exceed: L2, H1, H2. Rounding leaves some 1e-15 of it, and
 /// each derivative divides by the size of elements.
@@ -66,7 +95,51 @@ pub struct Answer {
     path: PathBuf,
     scheme: String,
     outcomes: Vec<Outcome>,
-    predicted: [f64; 4],
+    predicted: [Option<f64>; 4],
+}
+
+/// What is wrong with a mesh is wrong in its file.
+fn refused(error: eigenring_iga::Error, path: &Path) -> Error {
+    use eigenring_iga::Error as Iga;
+    match error {
+        Iga::Range { .. } | Iga::NotBicubic(_) | Iga::Lambda { .. } | Iga::NotH2 { .. } | Iga::Combination { .. } => {
+            Error::from(error)
+        }
+        _ => Error::from(error).in_file(path),
+    }
+}
+
+/// A mesh whose first levels can be solved on.
+fn prepared<'a>(
+    path: &Path,
+    mesh: &Mesh,
+    rules: &'a Rules,
+    domain: Domain,
+    levels: usize,
+    progress: &dyn Progress,
+) -> Result<Study<'a>, Error> {
+    if !(1..=MOST_LEVELS).contains(&levels) {
+        return Err(Error::Range {
+            what: "levels",
+            given: levels.to_string(),
+            accepted: format!("1 to {MOST_LEVELS}"),
+        });
+    }
+    let study = Study::new(mesh, rules, domain).map_err(|error| refused(error, path))?;
+    if study.steps > 0 {
+        progress.note(&format!(
+            "{} Catmull-Clark steps come first: they separate extraordinary vertices",
+            study.steps
+        ));
+    }
+    Ok(study)
+}
+
+fn ends_name(ends: Ends) -> &'static str {
+    match ends {
+        Ends::Open => "open",
+        Ends::Natural => "natural",
+    }
 }
 
 /// Solves a problem on the levels of a mesh, whose file is named in errors. `fits` refuses the bytes that the
@@ -82,33 +155,20 @@ pub fn study<E: From<Error>>(
     fits: impl Fn(f64) -> Result<(), E>,
     progress: &dyn Progress,
 ) -> Result<Answer, E> {
-    let range = |what: &'static str, given: String, accepted: String| Error::Range { what, given, accepted };
     let name = match request.task {
         Task::PatchTest => "lin",
-        Task::Poisson | Task::L2 => &request.solution,
+        _ => &request.solution,
     };
     let Some(u) = solution::named(name) else {
-        return Err(range("solution", name.to_owned(), solution::NAMES.join(", ")).into());
-    };
-    if !(1..=MOST_LEVELS).contains(&request.levels) {
-        return Err(range("levels", request.levels.to_string(), format!("1 to {MOST_LEVELS}")).into());
-    }
-    let refused = |error: eigenring_iga::Error| {
-        use eigenring_iga::Error as Iga;
-        // what is wrong with the mesh is wrong in its file
-        match error {
-            Iga::Range { .. } | Iga::NotBicubic(_) | Iga::Lambda { .. } => Error::from(error),
-            _ => Error::from(error).in_file(path),
+        return Err(Error::Range {
+            what: "solution",
+            given: name.to_owned(),
+            accepted: solution::NAMES.join(", "),
         }
+        .into());
     };
-    let study = Study::new(mesh, rules).map_err(refused)?;
-    if study.steps > 0 {
-        progress.note(&format!(
-            "{} Catmull-Clark steps come first: they separate extraordinary vertices",
-            study.steps
-        ));
-    }
-    fits(study.bytes(request.levels - 1))?;
+    let study = prepared(path, mesh, rules, request.domain, request.levels, progress)?;
+    fits(study.bytes(request.levels - 1, request.options.solver))?;
     let level = |level: usize| study.level(level, request.task.problem(), &u, &request.options);
     let outcomes = (0..request.levels).map(level).collect::<Result<_, _>>();
     Ok(Answer {
@@ -118,8 +178,8 @@ pub fn study<E: From<Error>>(
         },
         path: path.to_owned(),
         scheme: rules.definition().name(),
-        outcomes: outcomes.map_err(refused)?,
-        predicted: study.predicted(request.options.ends),
+        outcomes: outcomes.map_err(|error| refused(error, path))?,
+        predicted: study.predicted(request.task.problem(), request.options.ends),
     })
 }
 
@@ -176,6 +236,14 @@ impl Answer {
             let [assembly, solve, errors] = outcome.seconds;
             level.insert("relative".to_owned(), relative);
             level.insert("rate".to_owned(), rate.unwrap_or_else(|| json!({})));
+            level.insert(
+                "solver".to_owned(),
+                match outcome.solver {
+                    Solver::Cholesky => "cholesky".into(),
+                    Solver::Multigrid => "multigrid".into(),
+                },
+            );
+            level.insert("iterations".to_owned(), json!(outcome.iterations));
             level.insert("quadrature_points".to_owned(), outcome.points.into());
             level.insert(
                 "seconds".to_owned(),
@@ -190,12 +258,16 @@ impl Answer {
             "scheme": self.scheme,
             "problem": self.request.task.name(),
             "solution": self.request.solution,
-            "boundary": match self.request.options.ends {
-                Ends::Open => "open",
-                Ends::Natural => "natural",
+            "bc": self.request.task.condition(),
+            "sphere": self.request.domain == Domain::Sphere,
+            "boundary": ends_name(self.request.options.ends),
+            "dirichlet": match self.request.options.dirichlet {
+                Dirichlet::Projection => "projection",
+                Dirichlet::Nitsche => "nitsche",
             },
             "gauss": self.request.options.gauss,
             "depth": self.request.options.depth.map_or(json!("auto"), Value::from),
+            "tail": if self.request.options.scaled { "scaled" } else { "drop" },
             "levels": levels,
             "predicted": { "L2": l2, "H1": h1, "Linf": linf, "H2": h2 },
         })

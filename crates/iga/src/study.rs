@@ -1,0 +1,263 @@
+//! A mesh whose levels carry spaces.
+
+use crate::assembly::{Form, assemble, loads, points_of};
+use crate::geometry::Geometry;
+use crate::nested::embedding;
+use crate::problem::{Options, Outcome, Problem, Solver, default_solver, run, tables};
+use crate::solution::Solution;
+use crate::space::{Ends, Space};
+use crate::spectrum::{Membrane, Spectrum, spectrum};
+use crate::{Error, MOST_ANNULI, predicted};
+use eigenring_scheme::{Definition, Spec};
+use eigenring_surface::{Boundary, Mesh, Refiner, Rules};
+
+/// What a mesh is the control mesh of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Domain {
+    /// A part of the plane z = 0 with a boundary.
+    Planar,
+    /// A closed surface.
+    Closed,
+    /// The unit sphere about the origin: each level fits it by projecting `X/|X|` in the mean square, twice.
+    Sphere,
+}
+
+/// A mesh whose levels carry spaces.
+#[derive(Debug)]
+pub struct Study<'a> {
+    rules: &'a Rules,
+    mesh: Mesh,
+    domain: Domain,
+    tuned: bool,
+    /// Catmull-Clark steps that separated extraordinary vertices from each other and from the boundary.
+    pub steps: usize,
+    /// The subdominant eigenvalues of the valences in the mesh other than 4.
+    pub lambdas: Vec<(usize, f64)>,
+}
+
+/// How often a mesh is refined so that its extraordinary vertices are apart.
+const MOST_STEPS: usize = 3;
+/// Eigenvalues of one level.
+const MOST_EIGENVALUES: usize = 200;
+/// Projections onto the sphere.
+const FITS: usize = 2;
+
+impl<'a> Study<'a> {
+    /// A mesh of quads.
+    ///
+    /// # Errors
+    /// What is no such mesh, and a scheme that is not bicubic with one-ring rules.
+    pub fn new(mesh: &Mesh, rules: &'a Rules, domain: Domain) -> Result<Self, Error> {
+        let definition = rules.definition();
+        if rules.degree()? != Some(3) || rules.lists_four() {
+            return Err(Error::NotBicubic(definition.name()));
+        }
+        let tuned = !matches!(definition, Definition::Family(Spec::CatmullClark));
+        for (face, corners) in mesh.faces().enumerate() {
+            if corners.len() != 4 {
+                return Err(Error::NotQuad {
+                    face,
+                    corners: corners.len(),
+                });
+            }
+        }
+        for (vertex, p) in mesh.points().iter().enumerate() {
+            let position = [p.x, p.y, p.z];
+            if !position.iter().all(|c| c.is_finite()) {
+                return Err(Error::NotFinite { vertex, position });
+            }
+            if domain == Domain::Planar && p.z != 0.0 {
+                return Err(Error::NotPlanar { vertex, position });
+            }
+        }
+        let steps = Rules::new(Definition::Family(Spec::CatmullClark));
+        let mut mesh = mesh.without_unused();
+        for step in 0..=MOST_STEPS {
+            if let Some(space) = Space::new(&mesh, rules, Ends::Open, tuned)? {
+                match (domain, space.edges.is_empty()) {
+                    (Domain::Planar, true) => return Err(Error::Closed),
+                    (Domain::Closed | Domain::Sphere, false) => return Err(Error::Open),
+                    _ => {}
+                }
+                let lambdas = space.around.iter().map(|(&n, around)| (n, around.lambda)).collect();
+                return Ok(Study {
+                    rules,
+                    mesh,
+                    domain,
+                    tuned,
+                    steps: step,
+                    lambdas,
+                });
+            }
+            mesh = refined(&mesh, &steps, 1)?;
+        }
+        Err(Error::TooClose { steps: MOST_STEPS })
+    }
+
+    /// The control meshes of the levels up to one.
+    fn meshes(&self, level: usize) -> Result<Vec<Mesh>, Error> {
+        let mut meshes = vec![self.mesh.clone()];
+        for _ in 0..level {
+            meshes.push(refined(meshes.last().expect("one is there"), self.rules, 1)?);
+        }
+        Ok(meshes)
+    }
+
+    fn space(&self, mesh: &Mesh, ends: Ends) -> Result<Space, Error> {
+        let space = Space::new(mesh, self.rules, ends, self.tuned)?;
+        space.ok_or(Error::TooClose { steps: self.steps })
+    }
+
+    /// The space whose geometry is the domain.
+    fn fitted(&self, mesh: &Mesh, options: &Options) -> Result<Space, Error> {
+        let mut space = self.space(mesh, options.ends)?;
+        if self.domain == Domain::Sphere {
+            for _ in 0..FITS {
+                project_to_sphere(&mut space, options)?;
+            }
+        }
+        Ok(space)
+    }
+
+    fn check(options: &Options) -> Result<(), Error> {
+        if !(2..=10).contains(&options.gauss) {
+            return Err(Error::Range {
+                name: "gauss",
+                value: options.gauss,
+                accepted: "2 to 10",
+            });
+        }
+        match options.depth.filter(|depth| !(1..=MOST_ANNULI).contains(depth)) {
+            Some(value) => Err(Error::Range {
+                name: "depth",
+                value,
+                accepted: "1 to 200",
+            }),
+            None => Ok(()),
+        }
+    }
+
+    /// Solves on one level.
+    ///
+    /// # Errors
+    /// Options out of range, a problem of another domain, a Jacobian that is not positive, a matrix that is
+    /// not definite, an iteration that does not end; functions that are not in H2, for plates.
+    pub fn level(&self, level: usize, problem: Problem, u: &Solution, options: &Options) -> Result<Outcome, Error> {
+        Self::check(options)?;
+        match (self.domain, problem) {
+            (Domain::Planar, Problem::LaplaceBeltrami) => return Err(Error::Open),
+            (Domain::Closed | Domain::Sphere, Problem::Poisson | Problem::Neumann | Problem::Biharmonic) => {
+                return Err(Error::Closed);
+            }
+            _ => {}
+        }
+        let meshes = self.meshes(level)?;
+        let space = self.fitted(&meshes[level], options)?;
+        let embeddings = || {
+            let spaces = meshes[..level].iter().map(|mesh| self.space(mesh, options.ends));
+            let spaces: Vec<Space> = spaces.collect::<Result<_, _>>()?;
+            let finer = spaces.iter().skip(1).chain([&space]);
+            let all = meshes.iter().zip(&spaces).zip(finer);
+            let all = all.map(|((mesh, coarse), fine)| embedding(mesh, coarse, fine));
+            let all: Vec<_> = all.collect::<Result<_, _>>()?;
+            Ok(all.into_iter().zip(spaces).collect())
+        };
+        run(&space, problem, u, options, embeddings)
+    }
+
+    /// The lowest eigenvalues of the Laplacian on one level, as many as wanted or as it has unknowns.
+    ///
+    /// # Errors
+    /// Options out of range, a closed surface that is held, as [`Study::level`] otherwise.
+    pub fn spectrum(
+        &self,
+        level: usize,
+        membrane: Membrane,
+        count: usize,
+        options: &Options,
+    ) -> Result<Spectrum, Error> {
+        Self::check(options)?;
+        if !(1..=MOST_EIGENVALUES).contains(&count) {
+            return Err(Error::Range {
+                name: "count",
+                value: count,
+                accepted: "1 to 200",
+            });
+        }
+        if self.domain != Domain::Planar && membrane == Membrane::Held {
+            return Err(Error::Closed);
+        }
+        let space = self.fitted(&refined(&self.mesh, self.rules, level)?, options)?;
+        spectrum(&space, membrane, count, options)
+    }
+
+    /// The control mesh of level 0.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// About how many bytes a level takes: the matrix with those of its coarser levels and what their product
+    /// passes through, or the factor, which has some 22 n log2 n entries (empirical, meshes of 10^4 to 10^6
+    /// unknowns).
+    pub fn bytes(&self, level: usize, solver: Option<Solver>) -> f64 {
+        let faces = self.mesh.face_count() as f64 * 4.0_f64.powi(level as i32);
+        let factored = solver.unwrap_or(default_solver(faces as usize)) == Solver::Cholesky;
+        let solver = if factored {
+            8.0 * 22.0 * faces.log2().max(1.0)
+        } else {
+            2200.0
+        };
+        faces * (1500.0 + solver)
+    }
+
+    /// The rates that the worst of the valences predicts, see [`predicted`]. A natural solution is not better
+    /// than 5/2, 3/2, 2, 1/2: its second derivatives across the boundary vanish there, and those of u do not.
+    /// Of plates H2 has its rate, L2 at most twice that; of the others nothing is predicted.
+    pub fn predicted(&self, problem: Problem, ends: Ends) -> [Option<f64>; 4] {
+        let lambdas = self.lambdas.iter().map(|(_, lambda)| *lambda);
+        let rates = predicted(lambdas.fold(0.0, f64::max));
+        if problem == Problem::Biharmonic {
+            return [Some(rates[0].min(2.0 * rates[3])), None, None, Some(rates[3])];
+        }
+        match ends {
+            Ends::Open => rates.map(Some),
+            Ends::Natural => {
+                let most = [2.5, 1.5, 2.0, 0.5];
+                std::array::from_fn(|norm| Some(f64::min(rates[norm], most[norm])))
+            }
+        }
+    }
+}
+
+fn refined(mesh: &Mesh, rules: &Rules, levels: usize) -> Result<Mesh, Error> {
+    let mut refiner = Refiner::new(rules);
+    refiner.boundary = Some(Boundary::Corner);
+    Ok(refiner.refined(mesh, levels)?)
+}
+
+/// Moves a surface to the nearest one, in the mean square, to its own projection on the unit sphere.
+fn project_to_sphere(space: &mut Space, options: &Options) -> Result<(), Error> {
+    let tables = tables(space, options, false)?;
+    let (mass, _) = assemble(space, &tables, &[Form::Mass], None)?;
+    for face in 0..space.cells.len() {
+        let table = &tables[&space.cells[face].kind];
+        let (_, positions) = points_of(space, table, face);
+        let outward = |q: usize| Geometry::new(table.at(q), &positions, 1.0, false, false).is_ok_and(|at| at.outward());
+        if !(0..table.weights.len()).all(outward) {
+            return Err(Error::NotStar { face });
+        }
+    }
+    let factor = mass[0].factor()?;
+    let axes = [0, 1, 2].map(|axis| {
+        let length = |x: [f64; 3]| x.iter().map(|c| c * c).sum::<f64>().sqrt();
+        loads(space, &tables, &|at| at.x[axis] / length(at.x)).map(|load| factor.solve(&load))
+    });
+    for (axis, coordinates) in axes.into_iter().enumerate() {
+        space
+            .positions
+            .iter_mut()
+            .zip(coordinates?)
+            .for_each(|(p, value)| p[axis] = value);
+    }
+    Ok(())
+}

@@ -1,0 +1,158 @@
+//! What no public function shows: nestedness, invariants of the matrices, deflation, the operator of Laplace
+//! and Beltrami.
+
+use crate::assembly::{Form, assemble};
+use crate::geometry::Geometry;
+use crate::nested::{embedding, refinement};
+use crate::norms::errors;
+use crate::solution;
+use crate::space::{Ends, Space};
+use crate::tables::{Around, bicubic};
+use eigenring_scheme::{Definition, Spec};
+use eigenring_surface::{Boundary, Mesh, Refiner, Rules, shapes};
+
+fn rules(name: &str) -> Rules {
+    Rules::new(Definition::Family(name.parse::<Spec>().expect("a scheme")))
+}
+
+fn space(mesh: &Mesh, rules: &Rules, ends: Ends) -> Space {
+    Space::new(mesh, rules, ends, true)
+        .expect("a space")
+        .expect("vertices are apart")
+}
+
+fn refined(mesh: &Mesh, rules: &Rules) -> Mesh {
+    let mut refiner = Refiner::new(rules);
+    refiner.boundary = Some(Boundary::Corner);
+    refiner.refined(mesh, 1).expect("a mesh")
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+#[test]
+fn energies_of_a_function_are_those_of_its_embeddings() {
+    for (n, scheme, ends) in [
+        (3, "lambda:lambda=0.39", Ends::Open),
+        (5, "catmull-clark", Ends::Open),
+        (6, "lambda:lambda=0.5", Ends::Natural),
+    ] {
+        let rules = rules(scheme);
+        let mut mesh = shapes::fan(n);
+        let mut coarse = space(&mesh, &rules, ends);
+        let mut u: Vec<f64> = (0..coarse.positions.len()).map(|i| (7.3 * i as f64).sin()).collect();
+        if ends == Ends::Natural {
+            u[coarse.inner..].fill(0.0);
+        }
+        let mut all = Vec::new();
+        for level in 0..3 {
+            // the mass is of bidegree 11, and energies are rational
+            let energy = |form: Form, gauss: usize| {
+                let tables = coarse.tables(gauss, &Around::depth, false);
+                let (matrices, _) = assemble(&coarse, &tables, &[form], None).expect("matrices");
+                dot(&u, &matrices[0].times(&u))
+            };
+            all.push([energy(Form::Mass, 6), energy(Form::Stiffness, 12)]);
+            if level < 2 {
+                let finer = refined(&mesh, &rules);
+                let fine = space(&finer, &rules, ends);
+                let control = refinement(&mesh, &coarse, &fine).expect("a matrix");
+                for axis in 0..2 {
+                    let of = |space: &Space| -> Vec<f64> { space.positions.iter().map(|p| p[axis]).collect() };
+                    let moved = control.times(&of(&coarse));
+                    let off = moved.iter().zip(of(&fine)).map(|(a, b)| (a - b).abs());
+                    assert!(
+                        off.fold(0.0, f64::max) < 1e-14,
+                        "{scheme}: refined points are those of the mesh"
+                    );
+                }
+                u = embedding(&mesh, &coarse, &fine).expect("a matrix").times(&u);
+                (mesh, coarse) = (finer, fine);
+            }
+        }
+        for form in 0..2 {
+            let values: Vec<f64> = all.iter().map(|pair| pair[form]).collect();
+            let off = values
+                .iter()
+                .map(|value| (value / values[0] - 1.0).abs())
+                .fold(0.0, f64::max);
+            assert!(off <= 1e-12, "{scheme}, N = {n}, {ends:?}: {values:?}");
+        }
+    }
+}
+
+#[test]
+fn coordinates_have_the_energy_of_the_area() {
+    let rules = rules("lambda:lambda=0.39");
+    let mut space = space(&shapes::fan(5), &rules, Ends::Open);
+    // over control points and ghosts
+    let own = |i: usize| vec![(i as u32, 1.0)];
+    space.transform = (0..space.positions.len()).map(own).collect();
+    let tables = space.tables(4, &Around::depth, false);
+    let (matrices, weights) = assemble(&space, &tables, &[Form::Stiffness], Some(&|_| 1.0)).expect("matrices");
+    let area: f64 = weights.iter().sum();
+    let [x, y]: [Vec<f64>; 2] = [0, 1].map(|axis| space.positions.iter().map(|p| p[axis]).collect());
+    let [kx, ky] = [&x, &y].map(|v| matrices[0].times(v));
+    let ones = matrices[0].times(&vec![1.0; x.len()]);
+    // a regular pentagon of circumradius 1
+    let pentagon = 2.5 * (0.4 * std::f64::consts::PI).sin();
+    for (value, expected) in [
+        (area, pentagon),
+        (dot(&x, &kx), area),
+        (dot(&y, &ky), area),
+        (dot(&x, &ky), 0.0),
+    ] {
+        assert!((value - expected).abs() <= 1e-12, "{value} for {expected}");
+    }
+    assert!(ones.iter().all(|value| value.abs() <= 1e-12));
+}
+
+#[test]
+fn second_derivatives_need_the_matrix_without_its_dominant_eigenvalue() {
+    let (rules, u) = (rules("lambda:lambda=0.39"), solution::named("lin").expect("a solution"));
+    let mut space = space(&shapes::fan(6), &rules, Ends::Open);
+    let exact: Vec<f64> = space.positions.iter().map(|p| 1.0 + 2.0 * p[0] - 3.0 * p[1]).collect();
+    let mut h2 = || {
+        let tables = space.tables(6, &|_| 35, false);
+        let error = errors(&space, &tables, &exact, &u).expect("norms")[0];
+        space.around.values_mut().for_each(Around::forget_deflation);
+        error
+    };
+    let (with, without) = (h2(), h2());
+    assert!(with.h2 <= 1e-9, "{with:?}");
+    assert!(without.h2 > 1e-3 && without.l2 <= 1e-12, "{without:?}");
+}
+
+/// A bicubic patch near the unit sphere has the operator of the sphere on functions of x and y:
+/// `laplace u - 2 (x u_x + y u_y) - (x^2 u_xx + 2 xy u_xy + y^2 u_yy)`.
+#[test]
+fn the_laplacian_on_a_surface_bends_with_it() {
+    // control points whose patch has the sphere's second-order contact at its middle
+    let size = 1e-3;
+    let side = |k: usize| size * (k as f64 - 1.5);
+    let (sin, cos) = 0.6_f64.sin_cos();
+    let points: Vec<[f64; 3]> = (0..16)
+        .map(|k| {
+            let (a, b) = (side(k % 4), side(k / 4));
+            // blossoms of -(s^2 + t^2)/2: the square's coefficient is k^2 - 1/3 in units of the knots
+            let height = 1.0 - 0.5 * (a * a + b * b - 2.0 / 3.0 * size * size);
+            [a * cos + height * sin, b, height * cos - a * sin]
+        })
+        .collect();
+    let jets = bicubic(0.5, 0.5);
+    let at = Geometry::new(&jets, &points, 1.0, false, true).expect("a regular point");
+    for name in ["mix", "exp", "quadratic"] {
+        let u = solution::named(name).expect("a solution");
+        let found = at.exact(&u).hessian;
+        let [x, y, _] = at.x;
+        let v = u(x, y);
+        let [xx, xy, yy] = v.hessian;
+        let bent = 2.0 * (x * v.gradient[0] + y * v.gradient[1]) + x * x * xx + 2.0 * x * y * xy + y * y * yy;
+        let expected = xx + yy - bent;
+        assert!(
+            (found[0] + found[2] - expected).abs() < 1e-9,
+            "{name}: {found:?} for {expected}"
+        );
+    }
+}

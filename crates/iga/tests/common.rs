@@ -1,0 +1,34 @@
+//! Schemes and meshes.
+
+use eigenring_scheme::{Definition, Spec};
+use eigenring_surface::{Mesh, Point3, Rules};
+
+pub fn rules(name: &str) -> Rules {
+    Rules::new(Definition::Family(name.parse::<Spec>().expect("a scheme")))
+}
+
+pub fn warped(mut mesh: Mesh) -> Mesh {
+    for p in mesh.points_mut() {
+        let (x, y) = (p.x, p.y);
+        *p = Point3::new(x + 0.08 * (2.0 * y + 1.0).sin(), y + 0.08 * (3.0 * x - 0.5).sin(), 0.0);
+    }
+    mesh
+}
+
+/// Unit squares of n x n faces, the corner of each given.
+pub fn squares(n: u32, corners: &[[f64; 2]]) -> Mesh {
+    let (mut points, mut faces) = (Vec::new(), Vec::new());
+    for [x, y] in corners {
+        let start = points.len() as u32;
+        let at = |i: u32, j: u32| start + j * (n + 1) + i;
+        for j in 0..=n {
+            points.extend((0..=n).map(|i| {
+                let (s, t) = (f64::from(i) / f64::from(n), f64::from(j) / f64::from(n));
+                Point3::new(x + s, y + t, 0.0)
+            }));
+        }
+        let cells = (0..n).flat_map(|j| (0..n).map(move |i| (i, j)));
+        faces.extend(cells.flat_map(|(i, j)| [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]));
+    }
+    Mesh::of_quads(points, faces)
+}

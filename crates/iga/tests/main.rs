@@ -1,0 +1,8 @@
+//! Galerkin solutions against closed forms, a prototype's numbers, and code that shares nothing.
+
+mod analysis;
+mod common;
+mod multigrid;
+mod problems;
+mod spectra;
+mod tensor;
