@@ -78,7 +78,8 @@ fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
     let scale = ColourScale::new(ColourMap::Viridis, inputs.colours.unwrap_or_default(), "value");
     let title = |scheme: Scheme, blending: &Blending| {
         let count = 1 + blending.others(SHARE).count();
-        format!("{}: {count}", called(scheme))
+        // five names stand side by side
+        format!("{}: {count}", called(scheme).trim_start_matches("eigen-"))
     };
     let titles = all
         .iter()
