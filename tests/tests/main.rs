@@ -1,6 +1,7 @@
 //! All tests of this package as one binary: each file is a claim with its oracle, and linking them one by one
 //! takes longer than running them.
 
+mod analysis_results;
 mod cases;
 mod contradictions;
 mod corner_certificates;

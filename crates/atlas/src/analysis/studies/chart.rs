@@ -19,7 +19,7 @@ pub(super) fn chart(runs: &[Run], name: &str) -> Chart {
     let (_, high) = decades_of(all()).unwrap_or((0.1, 1.0));
     let mut rates: Vec<f64> = runs.iter().filter_map(|run| run.predicted[place]).collect();
     rates.sort_by(f64::total_cmp);
-    rates.dedup_by(|a, b| (*a - *b).abs() < 0.4);
+    rates.dedup_by(|a, b| (*a - *b).abs() < 0.25);
     let foot = lowest / 8.0_f64.powf(rates.last().copied().unwrap_or(0.0) * 0.35) / 10.0;
     let x = Axis::log("$h$", (h(levels - 1) / 1.3, 1.3));
     let mut chart = Chart::new(
