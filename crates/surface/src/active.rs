@@ -147,6 +147,12 @@ impl Active {
         Masks::Blend(before, f64::min(1.0, sum / count), after)
     }
 
+    /// Whether an edge is sharp in a step.
+    pub fn acts(&self, [a, b]: [u32; 2], step: usize) -> bool {
+        let mut spokes = self.spokes.get(&a).map_or(&[][..], Vec::as_slice).iter();
+        spokes.any(|spoke| spoke.other == b && (step as u32) < spoke.steps && spoke.sharpness > 0.0)
+    }
+
     /// How sharp an edge is in this level: 1 a crease, 0 smooth, between them a blend of both.
     pub fn edge_weight(&self, [a, b]: [u32; 2]) -> f64 {
         let spokes = self.spokes.get(&a).map_or(&[][..], Vec::as_slice);

@@ -30,7 +30,6 @@ mod active;
 mod block;
 pub mod defects;
 mod dual;
-mod dual_block;
 mod error;
 mod facts;
 pub mod features;

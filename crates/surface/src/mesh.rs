@@ -96,6 +96,12 @@ impl Mesh {
         Ok(self.starts.len() as u32 - 2)
     }
 
+    /// Makes room for so many faces, and corners of them.
+    pub(crate) fn reserve(&mut self, faces: usize, corners: usize) {
+        self.starts.reserve(faces + 2);
+        self.corners.reserve(corners);
+    }
+
     /// Adds a face whose points come later.
     pub(crate) fn push_corners(&mut self, face: &[u32]) {
         self.corners.extend_from_slice(face);

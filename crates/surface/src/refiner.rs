@@ -69,8 +69,8 @@ impl<'a> Refiner<'a> {
         }
         if let Method::Odd { .. } = self.rules.method()? {
             let boundary = self.boundary_of(&mesh);
-            if levels > 1 && self.cuts_corners_only(&mesh)? {
-                return crate::dual_block::refined(&mesh, self.rules, levels, self.workers);
+            if levels > 1 && is_closed_and_plain(&mesh) {
+                return crate::block::dual::refined(&mesh, self.rules, levels, self.workers);
             }
             let mut net = CellNet::new(mesh, boundary);
             for level in 0..levels {
@@ -89,14 +89,6 @@ impl<'a> Refiner<'a> {
             mesh = self.level(&mesh, level)?;
         }
         Ok(mesh)
-    }
-
-    /// Whether a dual scheme has one pass and the mesh neither boundary nor marks.
-    fn cuts_corners_only(&self, mesh: &Mesh) -> Result<bool, Error> {
-        let scheme = self.rules.inner(None, 4)?;
-        let topology = Topology::unchecked(mesh);
-        let closed = (0..topology.edge_count() as u32).all(|edge| !topology.is_boundary(edge));
-        Ok(closed && mesh.features.is_empty() && scheme.limit().passes().len() == 1)
     }
 
     /// One level of a primal scheme on a mesh that is a surface.
@@ -147,6 +139,12 @@ impl<'a> Refiner<'a> {
     pub(crate) fn rules(&self) -> &'a Rules {
         self.rules
     }
+}
+
+/// Whether a mesh has neither boundary nor marks.
+fn is_closed_and_plain(mesh: &Mesh) -> bool {
+    let topology = Topology::unchecked(mesh);
+    mesh.features.is_empty() && (0..topology.edge_count() as u32).all(|edge| !topology.is_boundary(edge))
 }
 
 /// The rules of a level.

@@ -212,46 +212,57 @@ fn rigid_motions_commute_with_refinement() {
 /// Levels run one by one give what blocks give, and old vertices keep their numbers.
 #[test]
 fn blocks_are_tables_level_by_level() {
-    for spec in ["catmull-clark", "lambda:optimal", "doo-sabin"] {
+    let specs = [
+        "catmull-clark",
+        "lambda:optimal",
+        "stam:order=4",
+        "tension:order=6,u0=0.3",
+        "tension:order=8,u0=2",
+        "stam:order=11",
+        "doo-sabin",
+        "tension:order=3,u0=0.3",
+        "tension:order=5,u0=2",
+        "stam:order=9",
+    ];
+    for spec in specs {
         let rules = rules_of(spec);
         let refiner = Refiner::new(&rules);
-        for mut control in [
-            crate::shapes::gear(3),
-            crate::shapes::propeller(3),
-            crate::shapes::tetrahedron(),
-        ] {
-            if spec != "doo-sabin" {
+        let dual = matches!(rules.method(), Ok(crate::rules::Method::Odd { .. }));
+        let even = matches!(rules.method(), Ok(crate::rules::Method::Even { .. }));
+        let mut sheet = crate::shapes::star(5, 2, crate::shapes::StarKind::Saddle);
+        sheet.features.corners.insert(sheet.face(0)[0], 10.0);
+        let closed = [crate::shapes::gear(3), crate::shapes::propeller(3), crate::shapes::tetrahedron()];
+        for mut control in closed.into_iter().chain((!dual).then_some(sheet)) {
+            if !dual {
                 let face = control.face(0).to_vec();
                 control.features.creases.insert(edge(face[0], face[1]), 10.0);
                 control.features.creases.insert(edge(face[1], face[2]), 1.5);
+                if even {
+                    control.features.edge_steps.insert(edge(face[0], face[1]), 1);
+                    let last = control.face(control.face_count() - 1).to_vec();
+                    control.features.creases.insert(edge(last[0], last[1]), 10.0);
+                    control.features.edge_steps.insert(edge(last[0], last[1]), 0);
+                    control.features.corners.insert(last[2], 10.0);
+                    control.features.vertex_steps.insert(last[2], 1);
+                }
             }
             let blocks = refiner.refined(&control, 4).unwrap();
             let mut tables = control.clone();
             let mut net = crate::CellNet::new(control.clone(), Boundary::Edge);
             for level in 0..4 {
-                if spec == "doo-sabin" {
+                if dual {
                     net = net.refined(&rules, level).unwrap();
                 } else {
                     tables = refiner.level(&tables, level).unwrap();
                 }
             }
-            let tables = if spec == "doo-sabin" { net.mesh } else { tables };
+            let tables = if dual { net.mesh } else { tables };
             assert_eq!(blocks.faces_by_size(), tables.faces_by_size());
-            let key = |p: &Point3<f64>| [p.x, p.y, p.z].map(|x| (x * 1e9).round() as i64);
-            let sorted = |mesh: &Mesh| {
-                let mut keys: Vec<[i64; 3]> = mesh.points().iter().map(key).collect();
-                keys.sort_unstable();
-                keys
-            };
-            let (a, b) = (sorted(&blocks), sorted(&tables));
-            let near = a
-                .iter()
-                .zip(&b)
-                .filter(|(a, b)| (0..3).all(|k| (a[k] - b[k]).abs() <= 1))
-                .count();
-            // sorting may exchange points whose first coordinates differ by rounding only
-            assert!(near * 100 >= 99 * a.len(), "{spec}: {near} of {}", a.len());
-            if spec != "doo-sabin" {
+            let features = |mesh: &Mesh| (mesh.features.creases.len(), mesh.features.edge_steps.len());
+            assert_eq!(features(&blocks), features(&tables));
+            let distance = farthest(blocks.points(), tables.points());
+            assert!(distance < 1e-13, "{spec}: {distance}");
+            if !dual {
                 for vertex in 0..control.points().len() {
                     assert!(
                         (blocks.points()[vertex] - tables.points()[vertex]).norm() < 1e-14,
@@ -262,6 +273,26 @@ fn blocks_are_tables_level_by_level() {
             assert!(Topology::new(&blocks).is_ok());
         }
     }
+}
+
+/// The farthest that a point of one set lies from the other, both ways. Points are sorted by one coordinate, so
+/// that few are compared.
+fn farthest(a: &[Point3<f64>], b: &[Point3<f64>]) -> f64 {
+    let sorted = |points: &[Point3<f64>]| {
+        let mut points = points.to_vec();
+        points.sort_by(|p, q| p.x.total_cmp(&q.x));
+        points
+    };
+    let (a, b) = (sorted(a), sorted(b));
+    let one_way = |from: &[Point3<f64>], to: &[Point3<f64>]| {
+        let nearest = from.iter().map(|point| {
+            let start = to.partition_point(|other| other.x < point.x - 1e-9);
+            let near = to[start..].iter().take_while(|other| other.x < point.x + 1e-9);
+            near.map(|other| (other - point).norm()).fold(f64::INFINITY, f64::min)
+        });
+        nearest.fold(0.0, f64::max)
+    };
+    one_way(&a, &b).max(one_way(&b, &a))
 }
 
 #[test]

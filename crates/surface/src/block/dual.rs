@@ -1,11 +1,13 @@
-//! Fine levels of corner cutting as blocks: order 3 on closed meshes without creases.
+//! Fine levels of dual schemes as blocks: all odd orders on closed meshes without creases.
 //!
 //! After the first level every corner `h` of a face of the control mesh is a point, and from then on a block
 //! of `n x n` points, `n = 1, 2, 4, ..`: from the face's vertex v at (0, 0) along its edge to (1, 0), the
 //! middle of the face at (1, 1). Each point becomes four by the scheme's [`Line`], and reads its neighbours
 //! in the block or across its sides; only the points next to a vertex or face that is not of size 4 have rows
-//! of their own.
+//! of their own. Smoothing then moves each point to the mean of the centres of its four cells, two averages by
+//! [`Line::average`] on arrays, with the centres of cells that are no quads put in their places.
 
+use crate::dual::smoothing_passes;
 use crate::rules::Rules;
 use crate::workers::Workers;
 use crate::{Error, Mesh, Topology};
@@ -16,6 +18,7 @@ use nalgebra::Point3;
 struct Blocks<'a> {
     topology: &'a Topology,
     rules: &'a Rules,
+    workers: &'a dyn Workers,
 }
 
 /// Where the point `(x, y)` of the block of a corner is.
@@ -23,10 +26,14 @@ fn at(n: usize, half: u32, x: usize, y: usize) -> usize {
     (half as usize * n + y) * n + x
 }
 
-/// The net after `levels` levels of corner cutting, at least two, of a closed mesh.
+/// The net after `levels` levels, at least two, of a closed mesh.
 pub(crate) fn refined(mesh: &Mesh, rules: &Rules, levels: usize, workers: &dyn Workers) -> Result<Mesh, Error> {
     let topology = &Topology::unchecked(mesh);
-    let blocks = Blocks { topology, rules };
+    let blocks = Blocks {
+        topology,
+        rules,
+        workers,
+    };
     let count = topology.half_count() << (2 * (levels - 1));
     if 4 * count >= u32::MAX as usize {
         return Err(Error::TooLarge {
@@ -34,11 +41,17 @@ pub(crate) fn refined(mesh: &Mesh, rules: &Rules, levels: usize, workers: &dyn W
             count: 4 * count,
         });
     }
-    let mut points = blocks.first(mesh)?;
-    let mut n = 1;
-    for level in 1..levels {
-        points = blocks.level(&points, n, level, workers)?;
-        n *= 2;
+    let (mut points, mut n) = (Vec::new(), 1);
+    for level in 0..levels {
+        points = if level == 0 {
+            blocks.first(mesh)?
+        } else {
+            n *= 2;
+            blocks.cut_all(&points, n / 2, level)?
+        };
+        for _ in 0..smoothing_passes(rules, level)? {
+            points = blocks.smoothed(&points, n);
+        }
     }
     blocks.cells(points, n)
 }
@@ -77,13 +90,8 @@ impl Blocks<'_> {
         Ok((0..n).map(new).collect())
     }
 
-    fn level(
-        &self,
-        old: &[Point3<f64>],
-        n: usize,
-        level: usize,
-        workers: &dyn Workers,
-    ) -> Result<Vec<Point3<f64>>, Error> {
+    /// Blocks of twice the size by corner cutting.
+    fn cut_all(&self, old: &[Point3<f64>], n: usize, level: usize) -> Result<Vec<Point3<f64>>, Error> {
         let topology = self.topology;
         let regular = self.rules.inner(None, 4)?;
         let line = regular.level(level).passes()[0]
@@ -92,7 +100,7 @@ impl Blocks<'_> {
             .unwrap_or_else(|| Line::corner_cutting(1.0));
         let mut new = vec![Point3::origin(); 4 * old.len()];
         let parts = new.chunks_mut(4 * n * n).collect();
-        workers.points(parts, &|half, part| {
+        self.workers.points(parts, &|half, part| {
             let block = self.with_halo(old, n, half as u32);
             cut_block(&line, &block, n, part);
         });
@@ -115,6 +123,38 @@ impl Blocks<'_> {
             }
         }
         Ok(new)
+    }
+
+    /// Each point moved to the mean of the centres of its four cells.
+    fn smoothed(&self, old: &[Point3<f64>], n: usize) -> Vec<Point3<f64>> {
+        let topology = self.topology;
+        let mean = |cell: &mut dyn ExactSizeIterator<Item = usize>| {
+            let count = cell.len();
+            let sum: nalgebra::Vector3<f64> = cell.map(|at| old[at].coords).sum();
+            (count != 4 && count > 0).then(|| Point3::from(sum / count as f64))
+        };
+        let vertices = (0..topology.vertex_count() as u32)
+            .map(|vertex| mean(&mut topology.fan(vertex).spokes.iter().map(|&half| at(n, half, 0, 0))));
+        let vertices: Vec<Option<Point3<f64>>> = vertices.collect();
+        let faces = (0..topology.face_count() as u32)
+            .map(|face| mean(&mut topology.face_halves(face).map(|half| at(n, half, n - 1, n - 1))));
+        let faces: Vec<Option<Point3<f64>>> = faces.collect();
+        let mut new = vec![Point3::origin(); old.len()];
+        self.workers.points(new.chunks_mut(n * n).collect(), &|half, part| {
+            let half = half as u32;
+            let block = self.with_halo(old, n, half);
+            let side = n + 1;
+            let mut centres = vec![Point3::origin(); side * side];
+            averaged(&block, &mut centres, side);
+            if let Some(centre) = vertices[topology.origin(half) as usize] {
+                centres[0] = centre;
+            }
+            if let Some(centre) = faces[topology.face(half) as usize] {
+                centres[side * side - 1] = centre;
+            }
+            averaged(&centres, part, n);
+        });
+        new
     }
 
     /// The points of a block and those around it, row by row from (-1, -1). Where there is no unique point
@@ -147,7 +187,9 @@ impl Blocks<'_> {
 
     fn cells(&self, points: Vec<Point3<f64>>, n: usize) -> Result<Mesh, Error> {
         let topology = self.topology;
+        let count = points.len();
         let mut mesh = Mesh::of_points(points);
+        mesh.reserve(count, 4 * count);
         let index = |half: u32, x: usize, y: usize| at(n, half, x, y) as u32;
         for half in 0..topology.half_count() as u32 {
             let twin = topology.twin(half).unwrap_or(half);
@@ -204,6 +246,16 @@ impl Blocks<'_> {
             mesh.push_corners(&corners);
         }
         Ok(mesh)
+    }
+}
+
+/// The means of four neighbours, `n` in a row, by [`Line::average`] in both directions.
+fn averaged(block: &[Point3<f64>], means: &mut [Point3<f64>], n: usize) {
+    for (mean, pair) in means.chunks_exact_mut(n).zip(block.windows(2 * (n + 1)).step_by(n + 1)) {
+        let (low, high) = pair.split_at(n + 1);
+        for ((mean, low), high) in mean.iter_mut().zip(low.windows(2)).zip(high.windows(2)) {
+            *mean = Point3::from((low[0].coords + low[1].coords + high[0].coords + high[1].coords) * 0.25);
+        }
     }
 }
 

@@ -1,0 +1,197 @@
+//! Fine levels as blocks: no adjacency structure is made for them.
+//!
+//! When all faces are quads and nothing but sharp edges is left, each face of that mesh becomes a block of
+//! `n x n` quads, `n = 2, 4, 8, ..`. Points are stored corners first, then sides (the inner points of each
+//! edge, in its direction), then the inner points of each face, row by row. A level is a list of passes, and
+//! so is its work on blocks: inner points follow the tensor product of the pass's
+//! [`Line`](eigenring_scheme::Line) on arrays, sides read the first rows of both blocks, corners and the points
+//! beside special ones have the rows of their level. Within a pass blocks do not depend on each other.
+//!
+//! Blocks of dual schemes are in [`dual`].
+
+pub(crate) mod dual;
+mod kernel;
+mod layout;
+mod pass;
+
+use crate::active::{Active, Ends};
+use crate::refiner::{Refiner, RulesOn};
+use crate::rules::Method;
+use crate::workers::Workers;
+use crate::{Error, Mesh, Topology};
+use kernel::accumulate;
+use layout::Layout;
+use nalgebra::Point3;
+use pass::{Local, Pass, Source};
+
+/// The mesh after `levels` levels, of which the first ones run on the whole mesh; `None` where blocks do not
+/// apply.
+pub(crate) fn refined(refiner: &Refiner<'_>, mesh: &Mesh, levels: usize) -> Result<Option<Mesh>, Error> {
+    let rules = refiner.rules();
+    let is_known = matches!(rules.method()?, Method::Bicubic | Method::Even { .. });
+    if !is_known || refiner.ends(mesh) == Ends::Open {
+        return Ok(None);
+    }
+    let mut coarse = mesh.clone();
+    for level in 0..levels {
+        let topology = Topology::unchecked(&coarse);
+        let own = matches!(refiner.rules_on(&coarse, &topology)?, RulesOn::Own(_));
+        if own && coarse.is_quads() && coarse.features.largest_finite_sharpness() == 0.0 {
+            let source = Source {
+                topology: &topology,
+                rules,
+                active: Active::new(&topology, &coarse.features, refiner.ends(&coarse), rules.steps),
+            };
+            if let Some(first) = source.level(level)? {
+                let blocks = Blocks {
+                    mesh: &coarse,
+                    source,
+                    workers: refiner.workers,
+                };
+                return blocks.run(level..levels, first).map(Some);
+            }
+        }
+        coarse = refiner.level(&coarse, level)?;
+    }
+    Ok(Some(coarse))
+}
+
+struct Blocks<'a> {
+    mesh: &'a Mesh,
+    source: Source<'a>,
+    workers: &'a dyn Workers,
+}
+
+impl Blocks<'_> {
+    fn run(self, levels: std::ops::Range<usize>, mut passes: Vec<Pass>) -> Result<Mesh, Error> {
+        let topology = self.source.topology;
+        let corners = (topology.half_count() as f64) * 4_f64.powi(levels.len() as i32);
+        if corners >= f64::from(u32::MAX) {
+            return Err(Error::TooLarge {
+                what: "corners of faces",
+                count: corners as usize,
+            });
+        }
+        let stationary = self.source.rules.method()? == Method::Bicubic;
+        let (mut points, mut n) = (self.mesh.points().to_vec(), 1);
+        for level in levels.clone() {
+            if level > levels.start && !stationary {
+                // what holds in one level of sharp features holds in all of them
+                passes = self.source.level(level)?.unwrap_or(passes);
+            }
+            for pass in &passes {
+                points = self.pass(&points, n, pass);
+                n *= pass.kernel.scale();
+            }
+        }
+        Ok(self.mesh(points, n))
+    }
+
+    /// The points that a pass makes of those of blocks of size `n`.
+    fn pass(&self, old: &[Point3<f64>], n: usize, pass: &Pass) -> Vec<Point3<f64>> {
+        let topology = self.source.topology;
+        let kernel = &pass.kernel;
+        let coarse = Layout { topology, n };
+        let size = kernel.scale() * n;
+        let fine = Layout { topology, n: size };
+        debug_assert_eq!(old.len(), coarse.count());
+        let mut new = vec![Point3::origin(); fine.count()];
+        let combined = |row: &Local| {
+            let mut sum = [0.0; 3];
+            for &(half, p, q, weight) in row {
+                accumulate(&mut sum, weight, &old[coarse.at(half, p, q)]);
+            }
+            Point3::from(sum)
+        };
+        for (point, row) in new.iter_mut().zip(&pass.corners) {
+            *point = combined(row);
+        }
+        if size > 1 {
+            let edges = topology.edge_count();
+            let (sides, inner) = new[fine.side_start()..].split_at_mut(edges * (size - 1));
+            let sides = sides.chunks_mut(size - 1);
+            let parts = sides.chain(inner.chunks_mut((size - 1) * (size - 1))).collect();
+            self.workers.points(parts, &|part, targets| match part.checked_sub(edges) {
+                Some(face) => {
+                    let mut block = Vec::with_capacity((n + 1) * (n + 1));
+                    coarse.block(old, face as u32, &mut block);
+                    kernel.run(&block, n, targets);
+                }
+                None => {
+                    let half = topology.half_of_edge(part as u32);
+                    let mut rows = Vec::with_capacity(3 * (n + 1));
+                    let twin = topology.twin(half).filter(|_| !pass.creases[part]);
+                    match twin {
+                        Some(twin) => {
+                            coarse.line(old, twin, 1, &mut rows);
+                            rows.reverse();
+                            coarse.line(old, half, 0, &mut rows);
+                            coarse.line(old, half, 1, &mut rows);
+                        }
+                        // only the middle row is read
+                        None => (0..3).for_each(|_| coarse.line(old, half, 0, &mut rows)),
+                    }
+                    kernel.side(&rows, n, twin.is_none(), targets);
+                }
+            });
+        }
+        for (half, q, row) in &pass.special {
+            new[fine.at(*half, 1, *q)] = combined(row);
+        }
+        new
+    }
+
+    /// The quads of blocks of size `n`, and the marks on them.
+    fn mesh(&self, points: Vec<Point3<f64>>, n: usize) -> Mesh {
+        let topology = self.source.topology;
+        let layout = Layout { topology, n };
+        let mut corners = vec![0_u32; topology.half_count() * n * n];
+        let parts = corners.chunks_mut(4 * n * n).collect();
+        self.workers.indices(parts, &|face, part| {
+            let mut quads = part.chunks_exact_mut(4);
+            let row = |y: usize, into: &mut Vec<u32>| {
+                into.clear();
+                into.extend((0..=n).map(|x| layout.grid(face as u32, x, y) as u32));
+            };
+            let (mut low, mut high) = (Vec::with_capacity(n + 1), Vec::with_capacity(n + 1));
+            row(0, &mut low);
+            for y in 0..n {
+                row(y + 1, &mut high);
+                for x in 0..n {
+                    if let Some(quad) = quads.next() {
+                        quad.copy_from_slice(&[low[x], low[x + 1], high[x + 1], high[x]]);
+                    }
+                }
+                std::mem::swap(&mut low, &mut high);
+            }
+        });
+        let mut mesh = Mesh::of_quads(points, corners);
+        let (coarse, fine) = (&self.mesh.features, &mut mesh.features);
+        fine.boundary = coarse.boundary;
+        fine.corners.clone_from(&coarse.corners);
+        fine.vertex_steps.clone_from(&coarse.vertex_steps);
+        fine.extraordinary.clone_from(&coarse.extraordinary);
+        if coarse.creases.is_empty() && coarse.edge_steps.is_empty() {
+            return mesh;
+        }
+        for number in 0..topology.edge_count() as u32 {
+            let pair = topology.edge_points(number);
+            let (sharpness, steps) = (coarse.creases.get(&pair), coarse.edge_steps.get(&pair));
+            if sharpness.is_none() && steps.is_none() {
+                continue;
+            }
+            let half = topology.half_of_edge(number);
+            for p in 0..n {
+                let [a, b] = [p, p + 1].map(|p| layout.at(half, p, 0) as u32);
+                let part = crate::features::edge(a, b);
+                if let Some(&sharpness) = sharpness {
+                    fine.creases.insert(part, sharpness);
+                }
+                if let Some(&steps) = steps {
+                    fine.edge_steps.insert(part, steps);
+                }
+            }
+        }
+        mesh
+    }
+}
