@@ -57,6 +57,7 @@ pub mod certificates;
 pub mod compare;
 pub mod curvature;
 pub mod curve;
+mod decimal;
 pub mod difference;
 pub mod eigenvectors;
 mod error;

@@ -1,10 +1,12 @@
 //! Limit points of surfaces as tables: at places, at vertices, on grids.
 
+use crate::decimal;
 use crate::error::{Accepted, Error};
 use crate::table::{Cell, Format, Table};
 use eigenring_surface::Vector3;
-use eigenring_surface::limit::{Kind, Place, Sample, Surface, VertexFan};
+use eigenring_surface::limit::{Evaluator, Kind, Place, Sample, Surface, VertexFan};
 use rayon::prelude::*;
+use std::collections::HashMap;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -13,23 +15,45 @@ use std::path::Path;
 /// # Errors
 /// Those of [`Surface::at`], for the first face with one.
 pub fn samples(surface: &Surface<'_>, places: &[Place]) -> Result<Vec<Sample>, Error> {
+    samples_with(surface, &mut HashMap::new(), places)
+}
+
+/// Evaluators are kept for as many faces.
+const KEPT: usize = 4096;
+
+/// The same with what is known of faces from places before.
+fn samples_with<'s, 'r>(
+    surface: &'s Surface<'r>,
+    known: &mut HashMap<u32, Evaluator<'s, 'r>>,
+    places: &[Place],
+) -> Result<Vec<Sample>, Error> {
     let mut order: Vec<u32> = (0..places.len() as u32).collect();
     order.sort_by_key(|&index| places[index as usize].face);
     let groups: Vec<&[u32]> = order
         .chunk_by(|&a, &b| places[a as usize].face == places[b as usize].face)
         .collect();
-    let found: Result<Vec<Vec<Sample>>, eigenring_surface::Error> = groups
+    let face = |group: &[u32]| places[group[0] as usize].face;
+    let before: Vec<Option<Evaluator<'s, 'r>>> = groups.iter().map(|group| known.remove(&face(group))).collect();
+    let found: Result<Vec<(Evaluator<'s, 'r>, Vec<Sample>)>, eigenring_surface::Error> = groups
         .par_iter()
-        .map(|group| {
-            let mut evaluator = surface.evaluator(places[group[0] as usize].face)?;
-            group
+        .zip(before)
+        .map(|(group, before)| {
+            let mut evaluator = match before {
+                Some(evaluator) => evaluator,
+                None => surface.evaluator(face(group))?,
+            };
+            let samples: Result<Vec<Sample>, _> = group
                 .iter()
                 .map(|&index| evaluator.at(places[index as usize]))
-                .collect()
+                .collect();
+            Ok((evaluator, samples?))
         })
         .collect();
     let mut samples = vec![None; places.len()];
-    for (group, found) in groups.iter().zip(found?) {
+    for (group, (evaluator, found)) in groups.iter().zip(found?) {
+        if known.len() < KEPT {
+            known.insert(face(group), evaluator);
+        }
         for (&index, sample) in group.iter().zip(found) {
             samples[index as usize] = Some(sample);
         }
@@ -88,53 +112,65 @@ pub fn point_table(places: &[Place], samples: &[Sample], derivatives: usize) -> 
 
 /// A row of the table of points as CSV: what does not exist is empty.
 fn csv_row(text: &mut String, place: &Place, sample: &Sample, derivatives: usize) -> std::fmt::Result {
-    write!(text, "{},{},{},{}", place.face, place.sub, place.s, place.t)?;
-    let vector = |text: &mut String, v: Option<&Vector3<f64>>| -> std::fmt::Result {
-        for k in 0..3 {
-            match v.map(|v| v[k]).filter(|x| x.is_finite()) {
-                Some(x) => write!(text, ",{x}")?,
-                None => text.push(','),
-            }
+    let number = |text: &mut String, x: Option<f64>| {
+        text.push(',');
+        if let Some(x) = x.filter(|x| x.is_finite()) {
+            decimal::push(text, x);
         }
-        Ok(())
     };
-    vector(text, Some(&sample.position.coords))?;
+    let vector = |text: &mut String, v: Option<&Vector3<f64>>| (0..3).for_each(|k| number(text, v.map(|v| v[k])));
+    write!(text, "{},{}", place.face, place.sub)?;
+    [place.s, place.t].into_iter().for_each(|x| number(text, Some(x)));
+    vector(text, Some(&sample.position.coords));
     if derivatives > 0 {
-        (0..2).try_for_each(|k| vector(text, sample.first.as_ref().map(|first| &first[k])))?;
+        (0..2).for_each(|k| vector(text, sample.first.as_ref().map(|first| &first[k])));
     }
     if derivatives > 1 {
-        (0..3).try_for_each(|k| vector(text, sample.second.as_ref().map(|second| &second[k])))?;
+        (0..3).for_each(|k| vector(text, sample.second.as_ref().map(|second| &second[k])));
     }
-    vector(text, sample.normal.as_ref())?;
+    vector(text, sample.normal.as_ref());
     let [k1, k2] = [0, 1].map(|k| sample.principal.map(|principal| principal[k]));
-    for x in [sample.gauss, sample.mean, k1, k2] {
-        match x.filter(|x| x.is_finite()) {
-            Some(x) => write!(text, ",{x}")?,
-            None => text.push(','),
-        }
-    }
+    [sample.gauss, sample.mean, k1, k2]
+        .into_iter()
+        .for_each(|x| number(text, x));
     writeln!(text, ",{}", sample.kind.name())
 }
 
-/// Writes the table of points as CSV, in full precision, for millions of them: rows are printed in parallel,
-/// some hundred thousand at a time.
+/// Why a table is not written.
+#[derive(Debug, thiserror::Error)]
+pub enum CsvError {
+    /// A place has no point.
+    #[error(transparent)]
+    Place(#[from] Error),
+    /// The file takes nothing more.
+    #[error(transparent)]
+    Write(#[from] std::io::Error),
+}
+
+/// Evaluates places and writes the table of points as CSV, in full precision, for any number of them: some
+/// ten thousand at a time, in parallel.
 ///
 /// # Errors
-/// Those of writing.
+/// Those of [`samples`], for a place that is not there before anything is written; those of writing.
 pub fn write_csv(
+    surface: &Surface<'_>,
     places: &[Place],
-    samples: &[Sample],
     derivatives: usize,
     out: &mut dyn std::io::Write,
-) -> std::io::Result<()> {
-    const AT_ONCE: usize = 4096;
+) -> Result<(), CsvError> {
+    const AT_ONCE: usize = 2048;
+    for &place in places {
+        surface.check(place).map_err(Error::from)?;
+    }
+    let mut known = HashMap::new();
     out.write_all(point_table(&[], &[], derivatives).render(Format::Csv).as_bytes())?;
-    for (places, samples) in places.chunks(32 * AT_ONCE).zip(samples.chunks(32 * AT_ONCE)) {
+    for places in places.chunks(32 * AT_ONCE) {
+        let samples = samples_with(surface, &mut known, places)?;
         let parts: Result<Vec<String>, std::fmt::Error> = places
             .par_chunks(AT_ONCE)
             .zip(samples.par_chunks(AT_ONCE))
             .map(|(places, samples)| {
-                let mut text = String::new();
+                let mut text = String::with_capacity(600 * places.len());
                 for (place, sample) in places.iter().zip(samples) {
                     csv_row(&mut text, place, sample, derivatives)?;
                 }

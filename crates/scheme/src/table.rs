@@ -83,20 +83,23 @@ impl<S: Scalar> Table<S> {
     /// # Errors
     /// [`Error::TablePoint`] if a row reads a point that is not there.
     pub fn apply<const D: usize>(&self, points: &[[S; D]]) -> Result<Vec<[S; D]>, Error> {
+        let count = points.len();
+        if let Some(&source) = self.sources.iter().find(|&&source| source as usize >= count) {
+            return Err(Error::TablePoint {
+                index: source as usize,
+                count,
+            });
+        }
         let made = |row: usize| {
             let mut sum: [S; D] = std::array::from_fn(|_| S::zero());
             for (source, weight) in self.row(row) {
-                let point = points.get(source).ok_or(Error::TablePoint {
-                    index: source,
-                    count: points.len(),
-                })?;
-                for (sum, coordinate) in sum.iter_mut().zip(point) {
+                for (sum, coordinate) in sum.iter_mut().zip(&points[source]) {
                     *sum += weight.clone() * coordinate.clone();
                 }
             }
-            Ok(sum)
+            sum
         };
-        (0..self.rows()).map(made).collect()
+        Ok((0..self.rows()).map(made).collect())
     }
 }
 

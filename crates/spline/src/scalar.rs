@@ -69,10 +69,12 @@ pub trait Scalar:
 }
 
 impl Scalar for f64 {
+    #[inline]
     fn ratio(p: i64, q: i64) -> Self {
         p as f64 / q as f64
     }
 
+    #[inline]
     fn exact(value: f64) -> Self {
         value
     }
@@ -82,6 +84,7 @@ impl Scalar for f64 {
         nearest(value)
     }
 
+    #[inline]
     fn sqrt(self) -> Self {
         f64::sqrt(self)
     }

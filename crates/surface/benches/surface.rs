@@ -33,6 +33,9 @@ fn refinement(criterion: &mut Criterion) {
         ("catmull-clark", 7),
         ("doo-sabin", 6),
         ("lambda:optimal", 6),
+        ("stam:order=5", 6),
+        ("tension:order=6,u0=0.5", 6),
+        ("stam:order=8", 6),
     ] {
         let rules = rules(spec);
         group.bench_function(format!("{spec}/{levels}"), |bench| {

@@ -231,7 +231,11 @@ fn blocks_are_tables_level_by_level() {
         let even = matches!(rules.method(), Ok(crate::rules::Method::Even { .. }));
         let mut sheet = crate::shapes::star(5, 2, crate::shapes::StarKind::Saddle);
         sheet.features.corners.insert(sheet.face(0)[0], 10.0);
-        let closed = [crate::shapes::gear(3), crate::shapes::propeller(3), crate::shapes::tetrahedron()];
+        let closed = [
+            crate::shapes::gear(3),
+            crate::shapes::propeller(3),
+            crate::shapes::tetrahedron(),
+        ];
         for mut control in closed.into_iter().chain((!dual).then_some(sheet)) {
             if !dual {
                 let face = control.face(0).to_vec();

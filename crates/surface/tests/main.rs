@@ -5,5 +5,6 @@ mod common;
 mod files;
 mod limits;
 mod partial_creases;
+mod rational;
 mod references;
 mod tension_limits;

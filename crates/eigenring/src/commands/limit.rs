@@ -12,6 +12,7 @@ use eigenring_atlas::schemes::SchemeName;
 use eigenring_atlas::table::Format;
 use eigenring_nonuniform::{Scheme as NonUniform, Surface as HnussSurface};
 use eigenring_surface::Surface;
+use std::cell::RefCell;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -76,19 +77,31 @@ impl Arguments {
             (Some(path), _) => limits::read_places(path)?,
             (None, Some(n)) if n > 0 => {
                 let count = mesh.face_count() as f64 * (n * n) as f64;
-                // a place and its sample twice; in other formats than CSV its row as text
-                let text = if format == Format::Csv { 0.0 } else { 1000.0 };
-                memory::check(count * (700.0 + text), self.force, &format!("{count} points"))?;
+                // a place; in other formats than CSV its sample twice, and its row as text
+                let each = if format == Format::Csv { 40.0 } else { 1700.0 };
+                memory::check(count * each, self.force, &format!("{count} points"))?;
                 surface.grid(n)
             }
             (None, n) => return Err(Error::range("per-face", n.unwrap_or(0), "1 and above")),
         };
-        let samples = limits::samples(&surface, &places)?;
         let derivatives = self.derivatives.parse().unwrap_or(0);
         if format == Format::Csv {
-            let rows = |out: &mut dyn std::io::Write| limits::write_csv(&places, &samples, derivatives, out);
-            self.output.emit_by(&rows)?;
+            let refused = RefCell::new(None);
+            let rows = |out: &mut dyn std::io::Write| {
+                limits::write_csv(&surface, &places, derivatives, out).map_err(|error| match error {
+                    limits::CsvError::Write(error) => error,
+                    limits::CsvError::Place(error) => {
+                        let told = std::io::Error::other("a place is refused");
+                        refused.replace(Some(error));
+                        told
+                    }
+                })
+            };
+            let written = self.output.emit_by(&rows);
+            refused.take().map_or(Ok(()), Err)?;
+            written?;
         } else {
+            let samples = limits::samples(&surface, &places)?;
             let table = limits::point_table(&places, &samples, derivatives);
             self.output.emit(&table.render(format))?;
         }

@@ -50,7 +50,7 @@ pub(crate) fn refined(mesh: &Mesh, rules: &Rules, levels: usize, workers: &dyn W
             blocks.cut_all(&points, n / 2, level)?
         };
         for _ in 0..smoothing_passes(rules, level)? {
-            points = blocks.smoothed(&points, n);
+            points = blocks.smoothed(points, n);
         }
     }
     blocks.cells(points, n)
@@ -98,10 +98,12 @@ impl Blocks<'_> {
             .line()
             .cloned()
             .unwrap_or_else(|| Line::corner_cutting(1.0));
-        let mut new = vec![Point3::origin(); 4 * old.len()];
+        let mut new = super::origins(4 * old.len());
         let parts = new.chunks_mut(4 * n * n).collect();
         self.workers.points(parts, &|half, part| {
-            let block = self.with_halo(old, n, half as u32);
+            let mut halo = vec![Point3::origin(); 4 * (n + 1)];
+            self.halo(old, n, half as u32, &mut halo);
+            let block = with_halo(&old[n * n * half..n * n * (half + 1)], &halo, n);
             cut_block(&line, &block, n, part);
         });
         for vertex in 0..topology.vertex_count() as u32 {
@@ -126,8 +128,9 @@ impl Blocks<'_> {
     }
 
     /// Each point moved to the mean of the centres of its four cells.
-    fn smoothed(&self, old: &[Point3<f64>], n: usize) -> Vec<Point3<f64>> {
+    fn smoothed(&self, mut points: Vec<Point3<f64>>, n: usize) -> Vec<Point3<f64>> {
         let topology = self.topology;
+        let old = points.as_slice();
         let mean = |cell: &mut dyn ExactSizeIterator<Item = usize>| {
             let count = cell.len();
             let sum: nalgebra::Vector3<f64> = cell.map(|at| old[at].coords).sum();
@@ -139,11 +142,16 @@ impl Blocks<'_> {
         let faces = (0..topology.face_count() as u32)
             .map(|face| mean(&mut topology.face_halves(face).map(|half| at(n, half, n - 1, n - 1))));
         let faces: Vec<Option<Point3<f64>>> = faces.collect();
-        let mut new = vec![Point3::origin(); old.len()];
-        self.workers.points(new.chunks_mut(n * n).collect(), &|half, part| {
-            let half = half as u32;
-            let block = self.with_halo(old, n, half);
-            let side = n + 1;
+        // what blocks read of each other, so that they can be moved in place
+        let rim = 4 * (n + 1);
+        let mut halos = vec![Point3::origin(); rim * topology.half_count()];
+        let old = points.as_slice();
+        self.workers.points(halos.chunks_mut(rim).collect(), &|half, halo| {
+            self.halo(old, n, half as u32, halo);
+        });
+        self.workers.points(points.chunks_mut(n * n).collect(), &|half, part| {
+            let block = with_halo(part, &halos[rim * half..rim * (half + 1)], n);
+            let (half, side) = (half as u32, n + 1);
             let mut centres = vec![Point3::origin(); side * side];
             averaged(&block, &mut centres, side);
             if let Some(centre) = vertices[topology.origin(half) as usize] {
@@ -154,35 +162,36 @@ impl Blocks<'_> {
             }
             averaged(&centres, part, n);
         });
-        new
+        points
     }
 
-    /// The points of a block and those around it, row by row from (-1, -1). Where there is no unique point
-    /// beyond a corner the block's own stands for it; it is read by the point that has its own row only.
-    fn with_halo(&self, old: &[Point3<f64>], n: usize, half: u32) -> Vec<Point3<f64>> {
+    /// The points around a block: those below, above, on the left and on the right, `n+1` each, beginning at
+    /// the corners (-1, -1), (0, n), (-1, 0) and (n, -1). Where there is no unique point beyond a corner the
+    /// block's own stands for it; it is read by the point that has its own row only.
+    fn halo(&self, old: &[Point3<f64>], n: usize, half: u32, halo: &mut [Point3<f64>]) {
         let topology = self.topology;
         // closed meshes have twins
         let twin = |half: u32| topology.twin(half).unwrap_or(half);
         let below = topology.next(twin(half));
         let left = twin(topology.previous(half));
         let (right, above) = (topology.next(half), topology.previous(half));
-        let side = n + 2;
-        let mut block = vec![Point3::origin(); side * side];
-        for y in 0..n {
-            let start = at(n, half, 0, y);
-            block[(y + 1) * side + 1..(y + 1) * side + 1 + n].copy_from_slice(&old[start..start + n]);
-        }
+        let sides = [
+            at(n, topology.next(twin(below)), 0, 0),
+            at(n, topology.next(right), n - 1, n - 1),
+            at(n, topology.next(left), 0, n - 1),
+            at(n, twin(half), n - 1, 0),
+        ];
+        let side = n + 1;
+        halo[0] = old[sides[0]];
+        halo[side + n] = old[sides[1]];
+        halo[2 * side + n] = old[sides[2]];
+        halo[3 * side] = old[sides[3]];
         for i in 0..n {
-            block[i + 1] = old[at(n, below, 0, i)];
-            block[(i + 1) * side] = old[at(n, left, i, 0)];
-            block[(i + 1) * side + n + 1] = old[at(n, right, i, n - 1)];
-            block[(n + 1) * side + i + 1] = old[at(n, above, n - 1, i)];
+            halo[1 + i] = old[at(n, below, 0, i)];
+            halo[side + i] = old[at(n, above, n - 1, i)];
+            halo[2 * side + i] = old[at(n, left, i, 0)];
+            halo[3 * side + 1 + i] = old[at(n, right, i, n - 1)];
         }
-        block[0] = old[at(n, topology.next(twin(below)), 0, 0)];
-        block[n + 1] = old[at(n, twin(half), n - 1, 0)];
-        block[(n + 1) * side] = old[at(n, topology.next(left), 0, n - 1)];
-        block[(n + 1) * side + n + 1] = old[at(n, topology.next(right), n - 1, n - 1)];
-        block
     }
 
     fn cells(&self, points: Vec<Point3<f64>>, n: usize) -> Result<Mesh, Error> {
@@ -247,6 +256,22 @@ impl Blocks<'_> {
         }
         Ok(mesh)
     }
+}
+
+/// The points of a block and those around it, row by row from (-1, -1).
+fn with_halo(points: &[Point3<f64>], halo: &[Point3<f64>], n: usize) -> Vec<Point3<f64>> {
+    let side = n + 1;
+    let mut block = Vec::with_capacity((n + 2) * (n + 2));
+    block.extend_from_slice(&halo[..side]);
+    block.push(halo[3 * side]);
+    for (row, y) in points.chunks_exact(n).zip(0..) {
+        block.push(halo[2 * side + y]);
+        block.extend_from_slice(row);
+        block.push(halo[3 * side + 1 + y]);
+    }
+    block.push(halo[2 * side + n]);
+    block.extend_from_slice(&halo[side..2 * side]);
+    block
 }
 
 /// The means of four neighbours, `n` in a row, by [`Line::average`] in both directions.

@@ -19,7 +19,10 @@ impl Kernel {
     pub fn new(line: &Line<f64>) -> Self {
         let scale = line.scale();
         // the targets of a source far enough inside that nothing is negative
-        let taps = |class: i32| line.taps(2 * (4 * scale + class)).map(|(x, w)| ((x / 2 - 3) as usize, w));
+        let taps = |class: i32| {
+            line.taps(2 * (4 * scale + class))
+                .map(|(x, w)| ((x / 2 - 3) as usize, w))
+        };
         let class = |i, j| {
             let across: Vec<(usize, f64)> = taps(j).collect();
             let term = |x, wx: f64| across.iter().map(move |&(y, wy)| (x, y, wx * wy));
@@ -27,9 +30,7 @@ impl Kernel {
         };
         Kernel {
             scale: scale as usize,
-            classes: (0..scale)
-                .map(|i| (0..scale).map(|j| class(i, j)).collect())
-                .collect(),
+            classes: (0..scale).map(|i| (0..scale).map(|j| class(i, j)).collect()).collect(),
             along: (0..scale).map(|i| taps(i).map(|(x, w)| (x, 1, w)).collect()).collect(),
         }
     }
@@ -55,11 +56,7 @@ impl Kernel {
     pub fn side(&self, rows: &[Point3<f64>], n: usize, crease: bool, side: &mut [Point3<f64>]) {
         let stride = n + 1;
         for i in 0..self.scale {
-            let terms = if crease {
-                &self.along[i]
-            } else {
-                &self.classes[i][0]
-            };
+            let terms = if crease { &self.along[i] } else { &self.classes[i][0] };
             self.row(terms, rows, stride, stride, i, side);
         }
     }
@@ -151,7 +148,12 @@ mod tests {
 
     #[test]
     fn block_kernels_are_the_tables_of_their_lines_bit_for_bit() {
-        for line in [Line::cubic(), Line::midpoint(), Line::smoothing(0.3), Line::smoothing(1.0)] {
+        for line in [
+            Line::cubic(),
+            Line::midpoint(),
+            Line::smoothing(0.3),
+            Line::smoothing(1.0),
+        ] {
             agrees(&line);
         }
     }

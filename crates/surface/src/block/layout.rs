@@ -18,6 +18,11 @@ impl Layout<'_> {
         self.side_start() + self.topology.edge_count() * (self.n - 1)
     }
 
+    /// Where the inner points of a block begin.
+    pub fn inner(&self, face: usize) -> usize {
+        self.inner_start() + face * (self.n - 1) * (self.n - 1)
+    }
+
     pub fn count(&self) -> usize {
         self.inner_start() + self.topology.face_count() * (self.n - 1) * (self.n - 1)
     }
@@ -41,7 +46,7 @@ impl Layout<'_> {
         let first = 4 * face;
         let (half, p) = match (x, y) {
             _ if x > 0 && x < n && y > 0 && y < n => {
-                return self.inner_start() + (face as usize * (n - 1) + y - 1) * (n - 1) + x - 1;
+                return self.inner(face as usize) + (y - 1) * (n - 1) + x - 1;
             }
             (x, 0) => (first, x),
             (x, y) if x == n => (first + 1, y),
@@ -63,19 +68,16 @@ impl Layout<'_> {
         self.side_start() + edge as usize * (n - 1) + p - 1
     }
 
-    /// Adds the points of a block, row by row.
-    pub fn block(&self, points: &[Point3<f64>], face: u32, into: &mut Vec<Point3<f64>>) {
+    /// Adds the points of a block, row by row: inner ones are given, the others are among those before them.
+    pub fn block(&self, outer: &[Point3<f64>], inner: &[Point3<f64>], face: u32, into: &mut Vec<Point3<f64>>) {
         let n = self.n;
-        self.line(points, 4 * face, 0, into);
+        self.line(outer, 4 * face, 0, into);
         for y in 1..n {
-            into.push(points[self.grid(face, 0, y)]);
-            if n > 1 {
-                let start = self.grid(face, 1, y);
-                into.extend_from_slice(&points[start..start + n - 1]);
-            }
-            into.push(points[self.grid(face, n, y)]);
+            into.push(outer[self.grid(face, 0, y)]);
+            into.extend_from_slice(&inner[(y - 1) * (n - 1)..y * (n - 1)]);
+            into.push(outer[self.grid(face, n, y)]);
         }
-        self.line(points, 4 * face, n, into);
+        self.line(outer, 4 * face, n, into);
     }
 
     /// Adds the points along a half-edge, `q` to its left.
@@ -85,7 +87,11 @@ impl Layout<'_> {
         if n > 1 {
             // those between the ends are equally far from each other
             let mut at = self.at(half, 1, q);
-            let step = if n > 2 { self.at(half, 2, q) as isize - at as isize } else { 0 };
+            let step = if n > 2 {
+                self.at(half, 2, q) as isize - at as isize
+            } else {
+                0
+            };
             for _ in 1..n {
                 into.push(points[at]);
                 at = at.wrapping_add_signed(step);

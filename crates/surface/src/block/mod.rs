@@ -28,15 +28,20 @@ use pass::{Local, Pass, Source};
 /// apply.
 pub(crate) fn refined(refiner: &Refiner<'_>, mesh: &Mesh, levels: usize) -> Result<Option<Mesh>, Error> {
     let rules = refiner.rules();
-    let is_known = matches!(rules.method()?, Method::Bicubic | Method::Even { .. });
-    if !is_known || refiner.ends(mesh) == Ends::Open {
+    // the points of the first level keep their numbers under even orders
+    let first = match rules.method()? {
+        Method::Bicubic => 0,
+        Method::Even { .. } => 1,
+        Method::Odd { .. } | Method::Passes => return Ok(None),
+    };
+    if refiner.ends(mesh) == Ends::Open {
         return Ok(None);
     }
     let mut coarse = mesh.clone();
     for level in 0..levels {
         let topology = Topology::unchecked(&coarse);
         let own = matches!(refiner.rules_on(&coarse, &topology)?, RulesOn::Own(_));
-        if own && coarse.is_quads() && coarse.features.largest_finite_sharpness() == 0.0 {
+        if level >= first && own && coarse.is_quads() && coarse.features.largest_finite_sharpness() == 0.0 {
             let source = Source {
                 topology: &topology,
                 rules,
@@ -80,65 +85,90 @@ impl Blocks<'_> {
                 passes = self.source.level(level)?.unwrap_or(passes);
             }
             for pass in &passes {
-                points = self.pass(&points, n, pass);
+                points = match pass.kernel.scale() {
+                    1 => self.smoothed(points, n, pass),
+                    _ => self.refined(&points, n, pass),
+                };
                 n *= pass.kernel.scale();
             }
         }
         Ok(self.mesh(points, n))
     }
 
-    /// The points that a pass makes of those of blocks of size `n`.
-    fn pass(&self, old: &[Point3<f64>], n: usize, pass: &Pass) -> Vec<Point3<f64>> {
+    /// The points that a refining pass makes of those of blocks of size `n`.
+    fn refined(&self, old: &[Point3<f64>], n: usize, pass: &Pass) -> Vec<Point3<f64>> {
         let topology = self.source.topology;
         let kernel = &pass.kernel;
         let coarse = Layout { topology, n };
         let size = kernel.scale() * n;
         let fine = Layout { topology, n: size };
-        debug_assert_eq!(old.len(), coarse.count());
-        let mut new = vec![Point3::origin(); fine.count()];
-        let combined = |row: &Local| {
-            let mut sum = [0.0; 3];
-            for &(half, p, q, weight) in row {
-                accumulate(&mut sum, weight, &old[coarse.at(half, p, q)]);
-            }
-            Point3::from(sum)
-        };
-        for (point, row) in new.iter_mut().zip(&pass.corners) {
-            *point = combined(row);
-        }
-        if size > 1 {
-            let edges = topology.edge_count();
-            let (sides, inner) = new[fine.side_start()..].split_at_mut(edges * (size - 1));
-            let sides = sides.chunks_mut(size - 1);
-            let parts = sides.chain(inner.chunks_mut((size - 1) * (size - 1))).collect();
-            self.workers.points(parts, &|part, targets| match part.checked_sub(edges) {
-                Some(face) => {
-                    let mut block = Vec::with_capacity((n + 1) * (n + 1));
-                    coarse.block(old, face as u32, &mut block);
-                    kernel.run(&block, n, targets);
-                }
-                None => {
-                    let half = topology.half_of_edge(part as u32);
-                    let mut rows = Vec::with_capacity(3 * (n + 1));
-                    let twin = topology.twin(half).filter(|_| !pass.creases[part]);
-                    match twin {
-                        Some(twin) => {
-                            coarse.line(old, twin, 1, &mut rows);
-                            rows.reverse();
-                            coarse.line(old, half, 0, &mut rows);
-                            coarse.line(old, half, 1, &mut rows);
-                        }
-                        // only the middle row is read
-                        None => (0..3).for_each(|_| coarse.line(old, half, 0, &mut rows)),
-                    }
-                    kernel.side(&rows, n, twin.is_none(), targets);
-                }
-            });
-        }
+        let mut new = origins(fine.count());
+        let (outer, inner) = new.split_at_mut(fine.inner_start());
+        self.outer(old, &coarse, pass, outer);
+        let parts = inner.chunks_mut((size - 1) * (size - 1)).collect();
+        self.workers.points(parts, &|face, targets| {
+            let mut block = Vec::with_capacity((n + 1) * (n + 1));
+            let start = coarse.inner(face);
+            coarse.block(old, &old[start..start + (n - 1) * (n - 1)], face as u32, &mut block);
+            kernel.run(&block, n, targets);
+        });
         for (half, q, row) in &pass.special {
-            new[fine.at(*half, 1, *q)] = combined(row);
+            new[fine.at(*half, 1, *q)] = combined(old, &coarse, row);
         }
         new
+    }
+
+    /// The points that a smoothing pass moves, in place: inner points of a block read those of the block and
+    /// corners and sides, which are therefore put in their places last.
+    fn smoothed(&self, mut points: Vec<Point3<f64>>, n: usize, pass: &Pass) -> Vec<Point3<f64>> {
+        debug_assert!(pass.special.is_empty(), "smoothing has rows of vertices only");
+        let layout = Layout {
+            topology: self.source.topology,
+            n,
+        };
+        let mut outer = vec![Point3::origin(); layout.inner_start()];
+        self.outer(&points, &layout, pass, &mut outer);
+        let (before, inner) = points.split_at_mut(layout.inner_start());
+        if n > 1 {
+            let parts = inner.chunks_mut((n - 1) * (n - 1)).collect();
+            self.workers.points(parts, &|face, targets| {
+                let mut block = Vec::with_capacity((n + 1) * (n + 1));
+                layout.block(before, targets, face as u32, &mut block);
+                pass.kernel.run(&block, n, targets);
+            });
+        }
+        before.copy_from_slice(&outer);
+        points
+    }
+
+    /// The corners and sides that a pass makes.
+    fn outer(&self, old: &[Point3<f64>], coarse: &Layout<'_>, pass: &Pass, outer: &mut [Point3<f64>]) {
+        let (topology, n) = (self.source.topology, coarse.n);
+        let (corners, sides) = outer.split_at_mut(coarse.side_start());
+        for (point, row) in corners.iter_mut().zip(&pass.corners) {
+            *point = combined(old, coarse, row);
+        }
+        let width = pass.kernel.scale() * n - 1;
+        if width == 0 {
+            return;
+        }
+        self.workers
+            .points(sides.chunks_mut(width).collect(), &|edge, targets| {
+                let half = topology.half_of_edge(edge as u32);
+                let mut rows = Vec::with_capacity(3 * (n + 1));
+                let twin = topology.twin(half).filter(|_| !pass.creases[edge]);
+                match twin {
+                    Some(twin) => {
+                        coarse.line(old, twin, 1, &mut rows);
+                        rows.reverse();
+                        coarse.line(old, half, 0, &mut rows);
+                        coarse.line(old, half, 1, &mut rows);
+                    }
+                    // only the middle row is read
+                    None => (0..3).for_each(|_| coarse.line(old, half, 0, &mut rows)),
+                }
+                pass.kernel.side(&rows, n, twin.is_none(), targets);
+            });
     }
 
     /// The quads of blocks of size `n`, and the marks on them.
@@ -194,4 +224,17 @@ impl Blocks<'_> {
         }
         mesh
     }
+}
+
+/// So many points, without touching their memory: the system hands out zeros, when they are written.
+fn origins(count: usize) -> Vec<Point3<f64>> {
+    vec![[0.0; 3]; count].into_iter().map(Point3::from).collect()
+}
+
+fn combined(old: &[Point3<f64>], coarse: &Layout<'_>, row: &Local) -> Point3<f64> {
+    let mut sum = [0.0; 3];
+    for &(half, p, q, weight) in row {
+        accumulate(&mut sum, weight, &old[coarse.at(half, p, q)]);
+    }
+    Point3::from(sum)
 }

@@ -50,7 +50,9 @@ impl Source<'_> {
 
     fn edges(&self, is_crease: impl Fn([u32; 2]) -> bool) -> Vec<bool> {
         let edges = 0..self.topology.edge_count() as u32;
-        edges.map(|number| is_crease(self.topology.edge_points(number))).collect()
+        edges
+            .map(|number| is_crease(self.topology.edge_points(number)))
+            .collect()
     }
 
     /// Linear refinement: corners stay, and no edge reads across.

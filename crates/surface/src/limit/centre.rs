@@ -7,6 +7,7 @@
 
 use super::kernel::Kernel;
 use super::local::Local;
+use super::net::{Control, control};
 use super::patch::Patch;
 use crate::Error;
 use crate::refine::{Row, Step, add};
@@ -75,6 +76,8 @@ pub(crate) struct Quarter {
     /// The level whose control points it has.
     level: usize,
     split: OnceLock<Option<Box<Split>>>,
+    /// The control points of its piece, if it is one.
+    control: OnceLock<Option<Control>>,
 }
 
 /// A quarter that is no regular piece yet.
@@ -97,6 +100,15 @@ pub(crate) struct Stage {
     pub left: Option<[Vec<f64>; 2]>,
     /// The quarters at the second, third and last corner.
     quarters: [Quarter; 3],
+    /// The eigenvalues of the matrix after 1, by falling modulus.
+    spectrum: OnceLock<Vec<Mode>>,
+}
+
+/// An eigenvalue, and its left eigenvectors of unit length once they are asked for.
+#[derive(Debug)]
+struct Mode {
+    value: Complex<f64>,
+    left: OnceLock<Vec<Vec<Complex<f64>>>>,
 }
 
 /// A centre at the first corner of a face.
@@ -141,6 +153,7 @@ impl Quarter {
             local: local.child(refined, corner, kernel.reach()).ok_or_else(missing)?,
             level,
             split: OnceLock::new(),
+            control: OnceLock::new(),
         })
     }
 
@@ -149,7 +162,11 @@ impl Quarter {
     fn patch(&self, context: Context<'_>, refined: &[[f64; 3]], at: &mut Path, depth: usize) -> Result<Patch, Error> {
         let points: Vec<[f64; 3]> = self.local.unknowns().iter().map(|&id| refined[id as usize]).collect();
         match self.split(context, depth)? {
-            None => Patch::new(&self.local, &points, context.kernel, self.level),
+            None => {
+                let control = self.control.get_or_init(|| control(&self.local, context.kernel));
+                let control = control.as_ref().ok_or_else(missing)?;
+                Patch::of(control, &points, context.kernel, self.level)
+            }
             Some(split) => {
                 let quarter = at.descend();
                 let refined = applied(&split.tables, &points)?;
@@ -282,8 +299,25 @@ impl Stage {
             limit,
             left,
             quarters,
+            spectrum: OnceLock::new(),
         };
         Ok((stage, own))
+    }
+
+    fn modes(&self) -> &[Mode] {
+        self.spectrum.get_or_init(|| {
+            let all = block(&self.matrix).eigenvalues().unwrap_or_default();
+            let mode = |value| Mode {
+                value,
+                left: OnceLock::new(),
+            };
+            all.iter().skip(1).map(|found| mode(found.value)).collect()
+        })
+    }
+
+    fn functionals(&self, mode: &Mode) -> Vec<Vec<Complex<f64>>> {
+        let space = block(&self.matrix).eigenspace(mode.value, 0);
+        space.map(|space| space.left).unwrap_or_default()
     }
 
     /// Finds the piece in which a place of a quarter (1 to 3) lies.
@@ -406,14 +440,14 @@ impl Centre {
     /// The largest modulus among the eigenvalues of the last matrix beyond the pair in which heights over the
     /// tangent plane have a part.
     pub fn second_modulus(&self, heights: &[f64]) -> Option<f64> {
-        let block = block(&self.stage(usize::MAX).matrix);
+        let stage = self.stage(usize::MAX);
         let size = heights.iter().fold(0.0, |most: f64, z| most.max(z.abs()));
         if size == 0.0 {
             return None;
         }
         let mut last = f64::NAN;
-        for eigenvalue in block.eigenvalues().ok()?.iter().skip(1) {
-            let modulus = eigenvalue.value.modulus();
+        for mode in stage.modes() {
+            let modulus = mode.value.modulus();
             let in_pair = self
                 .lambda
                 .is_ok_and(|pair| pair.iter().any(|lambda| (modulus - lambda).abs() < EQUAL * lambda));
@@ -421,15 +455,11 @@ impl Centre {
                 continue;
             }
             last = modulus;
-            let Ok(space) = block.eigenspace(eigenvalue.value, 0) else {
-                continue;
-            };
-            for left in space.left {
+            for left in mode.left.get_or_init(|| stage.functionals(mode)) {
                 let part = left
                     .iter()
                     .zip(heights)
                     .fold(Complex::zero(), |sum, (l, &z)| sum + l.scale(z));
-                // functionals have unit length
                 if part.modulus() > 1e-10 * size {
                     return Some(modulus);
                 }

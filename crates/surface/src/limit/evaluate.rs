@@ -165,6 +165,11 @@ impl<'s, 'r> Evaluator<'s, 'r> {
         descend(surface, node, s, t, scale, surface.lift)
     }
 
+    /// Whether a place of this face is there.
+    pub(super) fn check(&self, place: Place) -> Result<(), Error> {
+        self.located(place).map(|_| ())
+    }
+
     /// The half-edge of the base that a place counts from, the parameters there, and how much finer they are.
     fn located(&self, place: Place) -> Result<(u32, f64, f64, f64), Error> {
         let control = &self.surface.control;

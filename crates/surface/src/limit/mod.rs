@@ -207,6 +207,14 @@ impl<'a> Surface<'a> {
         Ok(samples.into_iter().flatten().collect())
     }
 
+    /// Whether a place is there.
+    ///
+    /// # Errors
+    /// [`Error::Range`].
+    pub fn check(&self, place: Place) -> Result<(), Error> {
+        self.evaluator(place.face)?.check(place)
+    }
+
     /// What evaluates a face: it keeps what it has refined.
     ///
     /// # Errors

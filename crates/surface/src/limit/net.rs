@@ -23,6 +23,7 @@ struct Net<'a> {
 
 /// The control points of a piece, as rows over the points of its part, along s first, and the creases across
 /// s and t that act in some smoothing steps only.
+#[derive(Debug)]
 pub(crate) struct Control {
     pub rows: Vec<Row>,
     pub lines: [Lines; 2],

@@ -55,7 +55,13 @@ pub(crate) struct OnCrease {
 impl Patch {
     /// The piece of the face of a part, whose control points are given, as one of the given level.
     pub fn new(local: &Local, points: &[[f64; 3]], kernel: &Kernel, level: usize) -> Result<Self, Error> {
-        let Control { rows, lines } = control(local, kernel).ok_or_else(missing)?;
+        let control = control(local, kernel).ok_or_else(missing)?;
+        Patch::of(&control, points, kernel, level)
+    }
+
+    /// The same with the rows of its control points known.
+    pub fn of(control: &Control, points: &[[f64; 3]], kernel: &Kernel, level: usize) -> Result<Self, Error> {
+        let Control { rows, lines } = control;
         let net = rows.iter().map(|row| {
             let mut sum = [0.0; 3];
             for &(at, w) in row {
@@ -64,7 +70,7 @@ impl Patch {
             sum
         });
         if lines.iter().any(|lines| !lines.is_empty()) {
-            let [in_s, in_t] = &lines;
+            let [in_s, in_t] = lines;
             let axes = [kernel.across(level, in_s)?, kernel.across(level, in_t)?];
             return Ok(Patch::Partial(axes, net.collect()));
         }
