@@ -279,8 +279,8 @@ fn blocks_are_tables_level_by_level() {
     }
 }
 
-/// The farthest that a point of one set lies from the other, both ways. Points are sorted by one coordinate, so
-/// that few are compared.
+/// The farthest that a point of one set lies from the other, both ways. Points are sorted by one coordinate,
+/// so that few are compared.
 fn farthest(a: &[Point3<f64>], b: &[Point3<f64>]) -> f64 {
     let sorted = |points: &[Point3<f64>]| {
         let mut points = points.to_vec();

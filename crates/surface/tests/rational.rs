@@ -1,8 +1,8 @@
 //! Limits beside centres against refinement in whole numbers, which shares no code with the library: nothing
 //! is rounded (Catmull-Clark), or after 150 digits (orders with a tension).
 //!
-//! The net around a vertex of valence N is kept on its lattice: `(k, x, y)`, x from 1, is x steps along spoke k
-//! and y along the next one. A level halves the quads and moves each point to a mean of its neighbours'.
+//! The net around a vertex of valence N is kept on its lattice: `(k, x, y)`, x from 1, is x steps along spoke
+//! k and y along the next one. A level halves the quads and moves each point to a mean of its neighbours'.
 
 use crate::common::rules;
 use eigenring_surface::{Mesh, Place, Point3, Surface, Vector3};
@@ -141,7 +141,8 @@ impl Net {
     /// One level of Catmull-Clark.
     fn catmull_clark(&self) -> Net {
         let n = self.n;
-        // masks over 16 N^2: with halves and quarters put in for E and F, (N-3)/N V + 2/N^2 sum e + 1/N^2 sum f
+        // masks over 16 N^2: with halves and quarters put in for E and F, (N-3)/N V + 2/N^2 sum e + 1/N^2 sum
+        // f
         let masks = [[16 * n * (n - 3), 32, 16], [4 * n * n, 2 * n * n, n * n]];
         let masks = masks.map(|mask| mask.map(BigInt::from));
         self.halved(self.rings + 1)
@@ -217,8 +218,8 @@ fn sum<'a>(terms: impl IntoIterator<Item = (BigInt, &'a Point)>) -> Point {
     total
 }
 
-/// The B-splines of an order on one interval at `u`, with first and second derivatives, by the recursion of Cox
-/// and de Boor on knots `-order+1, .., order`.
+/// The B-splines of an order on one interval at `u`, with first and second derivatives, by the recursion of
+/// Cox and de Boor on knots `-order+1, .., order`.
 fn basis(order: usize, u: &BigRational) -> [Vec<BigRational>; 3] {
     let number = |k: usize| BigRational::from_integer(k.into());
     let value = |order: usize| -> Vec<BigRational> {

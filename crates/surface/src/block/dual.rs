@@ -4,8 +4,8 @@
 //! of `n x n` points, `n = 1, 2, 4, ..`: from the face's vertex v at (0, 0) along its edge to (1, 0), the
 //! middle of the face at (1, 1). Each point becomes four by the scheme's [`Line`], and reads its neighbours
 //! in the block or across its sides; only the points next to a vertex or face that is not of size 4 have rows
-//! of their own. Smoothing then moves each point to the mean of the centres of its four cells, two averages by
-//! [`Line::average`] on arrays, with the centres of cells that are no quads put in their places.
+//! of their own. Smoothing then moves each point to the mean of the centres of its four cells, two averages
+//! by [`Line::average`] on arrays, with the centres of cells that are no quads put in their places.
 
 use crate::dual::smoothing_passes;
 use crate::rules::Rules;

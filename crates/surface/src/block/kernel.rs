@@ -61,7 +61,8 @@ impl Kernel {
         }
     }
 
-    /// The points of class `i` of a row, of which the first one is at place 1, from the sources around `base`.
+    /// The points of class `i` of a row, of which the first one is at place 1, from the sources around
+    /// `base`.
     fn row(
         &self,
         terms: &[Term],

@@ -4,8 +4,8 @@
 //! `n x n` quads, `n = 2, 4, 8, ..`. Points are stored corners first, then sides (the inner points of each
 //! edge, in its direction), then the inner points of each face, row by row. A level is a list of passes, and
 //! so is its work on blocks: inner points follow the tensor product of the pass's
-//! [`Line`](eigenring_scheme::Line) on arrays, sides read the first rows of both blocks, corners and the points
-//! beside special ones have the rows of their level. Within a pass blocks do not depend on each other.
+//! [`Line`](eigenring_scheme::Line) on arrays, sides read the first rows of both blocks, corners and the
+//! points beside special ones have the rows of their level. Within a pass blocks do not depend on each other.
 //!
 //! Blocks of dual schemes are in [`dual`].
 
