@@ -237,7 +237,7 @@ fn near_irregular(net: &Net, scheme: Scheme, later: bool) -> Result<BTreeMap<u32
             let mut row = Row::default();
             for (point, weight) in fine.terms() {
                 for (at, own) in step.table.row(point as usize) {
-                    row.push(originals[at as usize], weight * own);
+                    row.push(originals[at], weight * own);
                 }
             }
             row

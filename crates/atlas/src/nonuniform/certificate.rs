@@ -211,8 +211,9 @@ mod tests {
         for certificate in [&of_one, &of_all, &nurss] {
             assert!(confirmed(&certificate.to_json().unwrap()).unwrap(), "{certificate:?}");
         }
+        type Fault<'a> = (&'a Certificate, &'a dyn Fn(&mut Certificate));
         let undecided = |claim: &mut Claim| claim.status = Status::Proven;
-        let faults: [(&Certificate, &dyn Fn(&mut Certificate)); 6] = [
+        let faults: [Fault; 6] = [
             (&nurss, &|c| c.checks.iter_mut().for_each(undecided)),
             (&of_one, &|c| c.checks.truncate(2)),
             (&of_one, &|c| c.checks[1].margin = Some(0.4)),

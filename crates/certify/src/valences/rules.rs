@@ -44,7 +44,7 @@ pub(super) enum Inner {
     /// vertex with total weights `alpha/N` and `beta/N` of its neighbours and `own[0] + own[1]/N` of itself.
     Vertex {
         /// The weights; `alpha` and `beta` are N times the totals.
-        weights: OneRing<BigRational>,
+        weights: Box<OneRing<BigRational>>,
         /// The vertex's own weight.
         own: [BigRational; 2],
     },
@@ -91,7 +91,7 @@ impl Rules {
     pub fn new(family: Family) -> Result<Option<Self>, Error> {
         match family {
             Family::CatmullClark => {
-                let weights = OneRing {
+                let weights = Box::new(OneRing {
                     f1: ratio(1, 4),
                     f2: ratio(1, 4),
                     f3: ratio(1, 4),
@@ -101,7 +101,7 @@ impl Rules {
                     e2: ratio(1, 16),
                     alpha: ratio(3, 2),
                     beta: ratio(1, 4),
-                };
+                });
                 let own = [ratio(1, 1), ratio(-7, 4)];
                 let inner = Inner::Vertex { weights, own };
                 Rules::with(inner, &catmull_clark(NOMINAL)?, &catmull_clark(NOMINAL)?)

@@ -193,7 +193,7 @@ fn planted_faults_are_not_proven() {
             false => weight.clone(),
         });
         let mut values = named.into_iter();
-        let weights = weights.clone().map(|_| values.next().expect("nine weights"));
+        let weights = Box::new(weights.as_ref().clone().map(|_| values.next().expect("nine weights")));
         faulty.push(Inner::Vertex {
             weights,
             own: own.clone(),

@@ -11,6 +11,10 @@ use eigenring_scheme::{Line, Site};
 /// along it and to its left.
 pub(super) type Local = Vec<(u32, usize, usize, f64)>;
 
+/// The row of a special point: the half-edge in whose frame it lies, the steps to its left (0 on the edge, 1
+/// in the face), and the weights.
+pub(super) type Special = (u32, usize, Local);
+
 /// One pass over all blocks.
 pub(super) struct Pass {
     pub kernel: Kernel,
@@ -19,7 +23,7 @@ pub(super) struct Pass {
     /// Whether the inner points of an edge read along it only.
     pub creases: Vec<bool>,
     /// Rows of the points (1, 0) or (1, 1) in the frame of a half-edge, which are special.
-    pub special: Vec<(u32, usize, Local)>,
+    pub special: Vec<Special>,
 }
 
 /// What the passes of any level are made of.
@@ -150,7 +154,7 @@ impl Source<'_> {
     }
 
     /// The rows of special points beside vertices; `None` if they reach farther than one step.
-    fn special(&self) -> Result<Option<Vec<(u32, usize, Local)>>, Error> {
+    fn special(&self) -> Result<Option<Vec<Special>>, Error> {
         let mut special = Vec::new();
         for vertex in 0..self.topology.vertex_count() as u32 {
             let fan = self.topology.fan(vertex);
