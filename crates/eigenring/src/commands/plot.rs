@@ -30,7 +30,7 @@ use std::str::FromStr;
 /// names of the files that were written are printed.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  eigenring plot --list\n  eigenring plot --all\n  eigenring plot samples --valences 5,8 --size one\n  eigenring plot characteristic-map --schemes catmull-clark,lambda:optimal --valences 5,8\n  eigenring plot stencils --valences 3..20 --range 0.3..0.7 --format svg --out /tmp/figures\n  eigenring plot spectrum --schemes file:my.toml --sweep a=1..2:100 -N 5,8\n  eigenring plot blending-functions --knots 7,1,1,7,1 --next 1,1,1,1,1\n  eigenring plot overview -o overview.pdf"
+    after_help = "Examples:\n  eigenring plot --list\n  eigenring plot --all\n  eigenring plot samples --valences 5,8 --size one\n  eigenring plot characteristic-map --schemes catmull-clark,lambda:optimal --valences 5,8\n  eigenring plot stencils --valences 3..20 --range 0.3..0.7 --format svg --out /tmp/figures\n  eigenring plot spectrum --schemes file:my.toml --sweep a=1..2:100 -N 5,8\n  eigenring plot blending-functions --knots 3,1,1,3,1 --next 1,1,1,1,1\n  eigenring plot overview -o overview.pdf"
 )]
 pub struct Arguments {
     /// Names of figures; see --list
