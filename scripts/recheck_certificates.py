@@ -23,16 +23,21 @@ import json
 import sys
 from pathlib import Path
 
+from recheck import BadInput
+
 try:
     from flint import ctx
-except ImportError:
-    sys.exit("error: python-flint is not installed: accepted is 'pip install python-flint'")
 
-from recheck.certificates import BadInput, check
-from recheck.exact import IDENTITIES
-from recheck.faults import self_test
-from recheck.ranges import check_ranges
-from recheck.valences import check as check_valences
+    from recheck.certificates import check
+    from recheck.exact import IDENTITIES
+    from recheck.faults import self_test
+    from recheck.ranges import check_ranges
+    from recheck.valences import check as check_valences
+except ModuleNotFoundError as missing:
+    # the help can be read without it
+    if missing.name != "flint":
+        raise
+    ctx = None
 
 
 def files_of(paths):
@@ -59,6 +64,8 @@ def main():
     )
     parser.add_argument("--quiet", action="store_true", help="only differences and the summary")
     arguments = parser.parse_args()
+    if ctx is None:
+        raise BadInput("python-flint is not installed: accepted is 'pip install python-flint'")
     if not 64 <= arguments.precision <= 10000:
         raise BadInput(f"--precision {arguments.precision}: accepted are 64 to 10000")
     if not 0 <= arguments.samples <= 1000:

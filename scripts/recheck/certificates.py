@@ -2,13 +2,10 @@
 
 from flint import arb
 
+from . import BadInput
 from .exact import fraction
 from .schemes import OneRing, one_ring_file
 from .statements import PROVEN, UNDECIDED, statements
-
-
-class BadInput(Exception):
-    """What cannot be read, with what is accepted."""
 
 
 def rules_of(document):
