@@ -46,11 +46,14 @@ impl Geometry {
     /// derivatives of the map are left out unless wanted.
     pub fn new(jets: &[Jet], points: &[[f64; 3]], weight: f64, planar: bool, second: bool) -> Result<Self, f64> {
         let mut d = [[0.0; 3]; 6];
-        let orders = if second { 6 } else { 3 };
+        let axes = if planar { 2 } else { 3 };
         for (jet, point) in jets.iter().zip(points) {
-            for (sum, j) in d[..orders].iter_mut().zip(jet) {
-                for (s, coordinate) in sum.iter_mut().zip(point) {
-                    *s += coordinate * j;
+            // no loop over the derivatives that are not wanted
+            for axis in 0..axes {
+                let c = point[axis];
+                (0..3).for_each(|k| d[k][axis] += c * jet[k]);
+                if second {
+                    (3..6).for_each(|k| d[k][axis] += c * jet[k]);
                 }
             }
         }
