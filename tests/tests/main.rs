@@ -17,6 +17,7 @@ mod limits;
 mod nonuniform_results;
 mod numbering_picture;
 mod objective_reference;
+mod optimality;
 mod oracle;
 mod paper_table_1;
 mod registry;

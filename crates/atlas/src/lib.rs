@@ -39,6 +39,7 @@
 //! | [`meshes`], [`limits`], [`curvature`] | limit points as tables; mesh files, the rules of a scheme on a mesh, refinement |
 //! | [`render`] | pictures of surfaces |
 //! | [`run`], [`results`], [`tension`] | the studies behind `results/`, and its files as text |
+//! | [`studies`] | what is shown of the lambda-scheme beyond the papers' tables |
 //! | [`figures`] | pictures with the tables of what they show |
 //! | [`index`], [`difference`] | what makes and checks `results/`, and comparing its files number by number |
 //! | [`table`], [`progress`], [`files`], [`cache`], [`memory`] | tables in four formats; telling of long work, and the one parallel loop; complete files; remembered stencils; what fits into memory |
@@ -84,6 +85,7 @@ pub mod schemes;
 pub mod spectrum;
 pub mod stam;
 pub mod stencil;
+pub mod studies;
 pub mod sweep;
 pub mod table;
 pub mod tension;

@@ -3,6 +3,7 @@
 use crate::error::Error;
 use crate::progress::Progress;
 use crate::run::minima_over_lambda;
+use crate::studies::optimality::Tuned;
 use crate::table::{Record, Table};
 use eigenring_scheme::lambda::LambdaTable;
 use eigenring_tune::global::LambdaMinimum;
@@ -21,6 +22,23 @@ pub struct Found {
     pub title: &'static str,
     /// All minima: over (f2, f3) at one lambda, or over lambda too.
     pub minima: Table,
+    /// The lowest minimum at the reported lambda.
+    pub lowest: LambdaSample,
+}
+
+impl Found {
+    /// The lowest minimum, and what it was tuned for.
+    pub fn tuned(&self, options: &Options) -> Tuned {
+        let LambdaSample { valence, lambda, s, .. } = self.lowest;
+        Tuned {
+            valence,
+            lambda,
+            s,
+            stencil: [self.lowest.minima[0].f2, self.lowest.minima[0].f3],
+            weighted: options.settings.weighted,
+            margin: options.margin,
+        }
+    }
 }
 
 /// Optimises f2 and f3 at one lambda. Of several local minima the one of the branch is taken that is
@@ -41,6 +59,7 @@ pub fn at(valence: usize, lambda: f64, options: &Options) -> Result<Found, Error
         active: best.active.clone(),
         title: "all_minima",
         minima: minima(&found.minima),
+        lowest: found,
     })
 }
 
@@ -66,6 +85,7 @@ pub fn over_lambda(valence: usize, options: &Options, progress: &dyn Progress) -
         active: best.minimum.active.clone(),
         title: "minima_over_lambda",
         minima: lambda_minima(&found.minima),
+        lowest: at_optimum,
     })
 }
 

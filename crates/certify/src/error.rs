@@ -68,6 +68,28 @@ pub enum Error {
         /// Largest accepted one.
         most: usize,
     },
+    /// A valence whose plane of stencils is another, or at which nothing was tried.
+    #[error("the best stencil at valence {valence}: accepted are valences {least} to {most}")]
+    Optimum {
+        /// The valence.
+        valence: usize,
+        /// Smallest accepted one.
+        least: usize,
+        /// Largest accepted one.
+        most: usize,
+    },
+    /// A margin that leaves nothing admissible.
+    #[error("no stencil is admissible with a relative margin of {margin}: accepted are smaller ones from 0 on")]
+    Margin {
+        /// The margin.
+        margin: f64,
+    },
+    /// A tolerance that is none.
+    #[error("epsilon = {epsilon}: accepted is 0 < epsilon < 1")]
+    Epsilon {
+        /// The tolerance.
+        epsilon: f64,
+    },
     /// A requirement that is not known.
     #[error("requirement '{name}' is not known: accepted are {accepted}")]
     Requirement {

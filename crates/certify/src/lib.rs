@@ -37,6 +37,7 @@ mod levels;
 pub mod linear;
 pub mod map;
 mod mean_value;
+pub mod optimum;
 pub mod parameter;
 mod patches;
 mod proof;

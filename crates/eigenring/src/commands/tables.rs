@@ -13,6 +13,7 @@ use clap::{Args, ValueEnum};
 use eigenring_atlas::gallery::Gallery;
 use eigenring_atlas::results::{self, FOLDER, Results, summary};
 use eigenring_atlas::run::{Parameters, check, studies};
+use eigenring_atlas::studies::Study;
 use eigenring_atlas::table::{Format, Table, WIDTH};
 use eigenring_atlas::tension;
 use eigenring_tune::study::Knots;
@@ -36,6 +37,10 @@ use std::process::ExitCode;
 ///
 /// With --scheme nonuniform: OUT/nonuniform/ gets the maxima of blending functions, where eigen-polyhedra
 /// exist, the gaps of Lemma 1 on HNUSS, and reflection lines.
+///
+/// With --study: OUT/studies/ gets what is shown of the lambda-scheme beyond the papers' tables. optimality:
+/// that no admissible stencil at lambda_C* is better than the tuned one, for valences 5 to 20, with the weight
+/// and without, by interval branch and bound.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  eigenring tables                         all of results/lambda, valences 3 to 20\n  eigenring tables --valences 5,6          two valences, below eigenring-out\n  eigenring tables --starts full --format latex\n  eigenring tables --scheme tension        all of results/tension"
@@ -44,9 +49,12 @@ pub struct Arguments {
     /// Whose tables
     #[arg(long, value_enum, default_value_t)]
     scheme: Tabulated,
+    /// What is shown of the lambda-scheme beyond the papers' tables
+    #[arg(long, value_enum, conflicts_with = "scheme")]
+    study: Option<StudyArg>,
     #[command(flatten)]
     valences: OptionalValences,
-    /// Output folder; files go to its subfolder lambda or tension. By default results, or eigenring-out with
+    /// Output folder; files go to its subfolder lambda, tension or studies. By default results, or eigenring-out with
     /// --valences or any option that changes the numbers
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
@@ -80,6 +88,21 @@ pub enum Tabulated {
     TensionSurfaces,
     /// Pictures and counts of schemes with knot intervals.
     Nonuniform,
+}
+
+/// See [`Study`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum StudyArg {
+    /// That no stencil is better than the tuned ones.
+    Optimality,
+}
+
+impl StudyArg {
+    fn study(self) -> Study {
+        match self {
+            StudyArg::Optimality => Study::Optimality,
+        }
+    }
 }
 
 /// See [`Knots`].
@@ -137,6 +160,16 @@ impl Arguments {
             }
             self.threads.start()?;
             return surfaces(gallery, &out);
+        }
+        if let Some(study) = self.study {
+            if parameters != usual || self.embed.is_some() || self.valences.valences.is_some() {
+                return Err(Error::usage(
+                    "valences, knots, tuning options and --embed belong to tables of coefficients and eigenvalues",
+                    "--out and --threads",
+                ));
+            }
+            self.threads.start()?;
+            return studied(study.study(), &out);
         }
         if self.scheme == Tabulated::Tension {
             if parameters != usual || self.embed.is_some() {
@@ -225,6 +258,18 @@ fn surfaces(gallery: Gallery, out: &Path) -> Result<ExitCode, Error> {
     files::check_writable(out, &folder)?;
     let mut written = Written::default();
     for (name, bytes) in gallery.files(&args::tuner())? {
+        written.write(folder.join(name), &bytes)?;
+    }
+    written.say();
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Computes what a study shows.
+fn studied(study: Study, out: &Path) -> Result<ExitCode, Error> {
+    let folder = out.join(eigenring_atlas::studies::FOLDER);
+    files::check_writable(out, &folder)?;
+    let mut written = Written::default();
+    for (name, bytes) in study.files(&Terminal)? {
         written.write(folder.join(name), &bytes)?;
     }
     written.say();

@@ -1,0 +1,28 @@
+//! What is shown of the lambda-scheme beyond the papers' tables.
+
+pub mod optimality;
+
+use crate::error::Error;
+use crate::progress::Progress;
+
+/// Which results.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Study {
+    /// That no stencil is better than the tabulated ones.
+    Optimality,
+}
+
+/// The folder of their files.
+pub const FOLDER: &str = "studies";
+
+impl Study {
+    /// Its files: name and content.
+    ///
+    /// # Errors
+    /// Those of tuning and of proofs.
+    pub fn files(self, progress: &dyn Progress) -> Result<Vec<(String, Vec<u8>)>, Error> {
+        match self {
+            Study::Optimality => optimality::files(progress),
+        }
+    }
+}
