@@ -19,9 +19,15 @@ fn meshes(c: &mut Criterion) {
     );
     let mut group = c.benchmark_group("meshes");
     group.sample_size(10);
-    group.bench_function("a level of Catmull-Clark", |b| {
+    // a mesh that is given has no structure; one that was refined consists of blocks
+    group.bench_function("a level of Catmull-Clark on the mesh", |b| {
         b.iter(|| Refiner::new(&rules).refined(&mesh, 1))
     });
+    for levels in [9, 10] {
+        group.bench_function(format!("{levels} levels of Catmull-Clark by blocks"), |b| {
+            b.iter(|| Refiner::new(&rules).refined(&shapes::cube(), levels))
+        });
+    }
     group.bench_function("a halving of HNUSS", |b| b.iter(|| hybrid.halved()));
     let points: Vec<[f64; 3]> = vec![[1.0; 3]; hybrid.net().topology().vertex_count()];
     let (table, _) = hybrid.halved().expect("positive intervals");

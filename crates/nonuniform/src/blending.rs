@@ -40,6 +40,7 @@ impl Blending {
     /// # Errors
     /// Those of [`Refinement`].
     pub fn new(scheme: Scheme, spokes: &Spokes, levels: usize) -> Result<Self, Error> {
+        scheme.check(spokes)?;
         let pairs = spokes.intervals().iter().zip(spokes.next());
         let intervals: Vec<Vec<f64>> = pairs.map(|(&d, &a)| vec![d, a]).collect();
         let star = Star::new(&intervals, RINGS)?;

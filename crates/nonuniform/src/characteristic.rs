@@ -27,6 +27,9 @@ pub struct CharacteristicMap {
     pub jacobians: Vec<f64>,
     /// Edges of the net before all levels.
     pub lines: Vec<Vec<[f64; 2]>>,
+    /// The control net of three rings, which is the natural configuration: its points, around the limit of the
+    /// vertex at the origin, and the ends of its edges.
+    pub control: (Vec<[f64; 2]>, Vec<[u32; 2]>),
 }
 
 impl CharacteristicMap {
@@ -55,14 +58,12 @@ impl CharacteristicMap {
         }
         let limits = Limits::new(&refinement)?.of(&refinement.apply(&points)?)?;
         let limits: Vec<[f64; 2]> = limits.into_iter().map(|[point, ..]| point).collect();
-        Ok(drawn(
-            &coarse,
-            refinement.net(),
-            &limits,
-            star.mesh().face_count(),
-            levels,
-            factors,
-        ))
+        let faces = star.mesh().face_count();
+        let topology = coarse.topology();
+        let edges = (0..topology.edge_count() as u32).map(|edge| topology.edge_points(edge));
+        let mut map = drawn(&coarse, refinement.net(), &limits, faces, levels, factors);
+        map.control = (points, edges.collect());
+        Ok(map)
     }
 }
 
@@ -81,6 +82,7 @@ fn drawn(
         cells: Vec::new(),
         jacobians: Vec::new(),
         lines: Vec::new(),
+        control: Default::default(),
     };
     // the faces of a star come first, sector by sector and row by row, and each is followed by its parts
     let children = 4_usize.pow(levels as u32);

@@ -239,8 +239,8 @@ impl EigenPolyhedron {
         all
     }
 
-    pub(crate) fn refusal(&self, at: String) -> Error {
-        refusal(self.spokes.intervals(), at)
+    pub(crate) fn refusal(&self, outside: String) -> Error {
+        refusal(self.spokes.intervals(), outside)
     }
 
     /// Whether all weights lie in [0, 1].
@@ -307,8 +307,8 @@ impl EigenPolyhedron {
     }
 }
 
-/// An error that names the sectors and spokes `at` which the intervals have no polyhedron.
-fn refusal(d: &[f64], at: String) -> Error {
+/// An error that names the sectors and spokes at which the intervals have no polyhedron.
+fn refusal(d: &[f64], outside: String) -> Error {
     let valence = d.len();
     let safe = match safe_ratio(valence) {
         Some(ratio) if ratio.is_finite() => ratio.to_string(),
@@ -316,9 +316,9 @@ fn refusal(d: &[f64], at: String) -> Error {
         None => "what is not known".to_owned(),
     };
     Error::OutsideDomain {
-        place: String::new(),
+        place: None,
         intervals: d.to_vec(),
-        at,
+        outside,
         valence,
         safe,
     }

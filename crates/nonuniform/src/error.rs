@@ -46,27 +46,29 @@ pub enum Error {
     },
     /// Zero intervals that leave no strict subdominant eigenvalue.
     #[error(
-        "the knot intervals of spokes {spokes:?}{place} are zero: accepted are one or two adjacent ones of {valence}"
+        "the knot intervals of spokes {spokes:?}{} are zero: accepted are one or two adjacent ones of {valence}",
+        at(*.place)
     )]
     ZeroSpokes {
         /// The spokes.
         spokes: Vec<usize>,
         /// The valence.
         valence: usize,
-        /// At which vertex, in words.
-        place: String,
+        /// Of a mesh where.
+        place: Option<Place>,
     },
     /// Intervals for which the eigen-polyhedron does not exist.
     #[error(
-        "the eigen-polyhedron does not exist{place} for the intervals {intervals:?}: weights beyond [0, 1] at {at}: accepted are ratios up to {safe} at valence {valence}, and sets with all weights in [0, 1]"
+        "the eigen-polyhedron does not exist{} for the intervals {intervals:?}: weights beyond [0, 1] at {outside}: accepted are ratios up to {safe} at valence {valence}, and sets with all weights in [0, 1]",
+        at(*.place)
     )]
     OutsideDomain {
-        /// At which vertex, in words.
-        place: String,
-        /// The intervals of the spokes.
+        /// Of a mesh where.
+        place: Option<Place>,
+        /// The intervals of the spokes, as they were given.
         intervals: Vec<f64>,
         /// Sectors and spokes with their weights.
-        at: String,
+        outside: String,
         /// The valence.
         valence: usize,
         /// The ratio up to which the polyhedron exists for all sets.
@@ -91,10 +93,10 @@ pub enum Error {
     #[error("a knot interval is given for edge {}-{}, which is none of the mesh: accepted are edges of faces", .0[0], .0[1])]
     NoSuchEdge([u32; 2]),
     /// A vertex that has no rule.
-    #[error("vertex {vertex} {what}: accepted {accepted}")]
+    #[error("{place} {what}: accepted {accepted}")]
     Vertex {
-        /// The vertex.
-        vertex: u32,
+        /// The vertex, or that from which a vertex was made.
+        place: Place,
         /// What it is.
         what: String,
         /// What is accepted, with its verb.
@@ -120,35 +122,71 @@ pub enum Error {
     },
 }
 
+/// What a vertex of a net is to whoever gave the mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A vertex of the mesh.
+    Vertex(u32),
+    /// The vertex in the middle of a face of the mesh, after a level.
+    Face(u32),
+    /// Another vertex that a level has made.
+    New,
+}
+
+impl std::fmt::Display for Place {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Place::Vertex(number) => write!(f, "vertex {number}"),
+            Place::Face(number) => write!(f, "the middle of face {number}"),
+            Place::New => f.write_str("a refined vertex"),
+        }
+    }
+}
+
+/// The place in words after what is there.
+fn at(place: Option<Place>) -> String {
+    place.map_or(String::new(), |place| format!(" at {place}"))
+}
+
+/// An edge in words, by its ends.
+pub(crate) fn edge_between(ends: [Place; 2]) -> String {
+    let [a, b] = ends.map(|end| match end {
+        Place::Vertex(number) => number.to_string(),
+        other => format!("({other})"),
+    });
+    format!("{a}-{b}")
+}
+
 impl Error {
     /// The same error without the vertex, which is that of a corner.
     #[must_use]
     pub(crate) fn of_spokes(mut self) -> Self {
         if let Error::OutsideDomain { place, .. } | Error::ZeroSpokes { place, .. } = &mut self {
-            place.clear();
+            *place = None;
         }
         self
     }
 
-    /// The same error of a vertex of a mesh whose spokes lead to `heads`.
+    /// The same error of a vertex of a net whose spokes lead to `heads`, after so many halvings of intervals.
     #[must_use]
-    pub fn at(mut self, vertex: u32, heads: &[u32]) -> Self {
+    pub(crate) fn at(mut self, vertex: Place, heads: &[Place], halvings: i32) -> Self {
         if let Error::Scheme(eigenring_scheme::Error::ZeroIntervals { spokes }) = &self {
             let edges = spokes.map(|i| {
-                heads
-                    .get(i)
-                    .map_or(format!("spoke {i}"), |head| format!("{vertex}-{head}"))
+                let head = heads.get(i);
+                head.map_or(format!("spoke {i}"), |head| edge_between([vertex, *head]))
             });
             return Error::ZeroSum {
-                what: format!("edges {} of vertex {vertex}", edges.join(" and ")),
+                what: format!("edges {} of {vertex}", edges.join(" and ")),
                 rule: "the rule of HNUSS",
             };
         }
         match &mut self {
-            Error::OutsideDomain { place, .. } | Error::ZeroSpokes { place, .. } => {
-                *place = format!(" at vertex {vertex}");
+            Error::OutsideDomain { place, intervals, .. } => {
+                *place = Some(vertex);
+                intervals.iter_mut().for_each(|d| *d *= 2_f64.powi(halvings));
             }
-            Error::ZeroSum { what, .. } => *what = format!("{what} of vertex {vertex}"),
+            Error::ZeroSpokes { place, .. } => *place = Some(vertex),
+            Error::ZeroSum { what, .. } => *what = format!("{what} of {vertex}"),
             _ => {}
         }
         self

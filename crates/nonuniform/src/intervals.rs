@@ -84,7 +84,7 @@ impl KnotIntervals {
 
 /// The number of the edge between two points.
 fn find(topology: &Topology, [a, b]: [u32; 2]) -> Option<u32> {
-    if a as usize >= topology.vertex_count() {
+    if a.max(b) as usize >= topology.vertex_count() {
         return None;
     }
     let fan = topology.fan(a);

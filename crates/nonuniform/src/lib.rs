@@ -22,7 +22,7 @@ mod surface;
 pub use blending::{Blending, Peak};
 pub use characteristic::CharacteristicMap;
 pub use eigen_polyhedron::{EigenPolyhedron, safe_ratio};
-pub use error::{Error, MAX_SPOKES, Marked};
+pub use error::{Error, MAX_SPOKES, Marked, Place};
 pub use first_level::FirstLevel;
 pub use hybrid::{Converted, HybridNet, Outside};
 pub use intervals::KnotIntervals;

@@ -251,7 +251,7 @@ fn near_irregular(net: &Net, scheme: Scheme, later: bool) -> Result<BTreeMap<u32
         let d: Vec<f64> = spokes.iter().map(|&spoke| step.net.interval(spoke)).collect();
         let places = around(step.net.topology(), at, &spokes);
         let rows = irregular(&d, scheme)
-            .map_err(|error| error.at(centre, &[]))?
+            .map_err(|error| step.net.error_at(error, at))?
             .map(|weights| Row::of(places.iter().copied().zip(weights)));
         let [point, s, t] = rows;
         found.insert(

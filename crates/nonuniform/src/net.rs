@@ -1,9 +1,11 @@
 //! A mesh with knot intervals, and what rules ask of it.
 
 use crate::intervals::KnotIntervals;
-use crate::{Error, Spokes};
+use crate::error::edge_between;
+use crate::{Error, Place, Spokes};
 use eigenring_surface::{Features, Mesh, Point3, Topology};
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 /// A mesh with knot intervals on its edges; where its points are does not matter here.
 #[derive(Clone, Debug)]
@@ -15,6 +17,16 @@ pub struct Net {
     valences: Vec<(usize, bool)>,
     /// Inner vertices that are marked as extraordinary.
     marked: Vec<bool>,
+    origin: Origin,
+}
+
+/// What a net was made from, for messages.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Origin {
+    /// What the first vertices are; if unset, all are those of the mesh.
+    places: Option<Arc<Vec<Place>>>,
+    /// How often intervals were halved.
+    halvings: i32,
 }
 
 impl Net {
@@ -33,8 +45,6 @@ impl Net {
         let mut plain = mesh.clone();
         plain.features.knots.clear();
         Topology::new(&plain).map_err(eigenring_surface::Error::from)?;
-        let mesh = mesh.without_unused();
-        let topology = Topology::unchecked(&mesh);
         for (vertex, &value) in mesh.weights().unwrap_or_default().iter().enumerate() {
             if !(value.is_finite() && value > 0.0) {
                 let vertex = vertex as u32;
@@ -45,14 +55,24 @@ impl Net {
         let creased = features.creases.keys().map(|pair| pair[0]);
         if let Some(vertex) = creased.chain(features.corners.keys().copied()).next() {
             return Err(Error::Vertex {
-                vertex,
+                place: Place::Vertex(vertex),
                 what: "has a crease or is marked as a corner".to_owned(),
                 accepted: "are knot and extraordinary tags under schemes with knot intervals; zero intervals make creases",
             });
         }
-        let intervals = KnotIntervals::new(&topology, features.knots.iter().map(|(&pair, &d)| (pair, d)))?;
-        let extraordinary: Vec<u32> = features.extraordinary.iter().copied().collect();
-        let net = Net::known(mesh, topology, intervals);
+        // edges belong to faces, so that they have the same numbers without unused vertices
+        let given = features.knots.iter().map(|(&pair, &d)| (pair, d));
+        let intervals = KnotIntervals::new(&Topology::unchecked(mesh), given)?;
+        let unused = mesh.unused();
+        let mesh = mesh.without_unused();
+        let extraordinary: Vec<u32> = mesh.features.extraordinary.iter().copied().collect();
+        let topology = Topology::unchecked(&mesh);
+        let mut net = Net::known(mesh, topology, intervals);
+        if !unused.is_empty() {
+            let all = 0..(net.valences.len() + unused.len()) as u32;
+            let used = all.filter(|vertex| unused.binary_search(vertex).is_err());
+            net.origin.places = Some(Arc::new(used.map(Place::Vertex).collect()));
+        }
         net.with_marked(&extraordinary)
     }
 
@@ -65,14 +85,56 @@ impl Net {
             topology,
             intervals,
             valences,
+            origin: Origin::default(),
         }
+    }
+
+    /// What a vertex is to whoever gave the mesh.
+    pub fn place(&self, vertex: u32) -> Place {
+        match &self.origin.places {
+            None => Place::Vertex(vertex),
+            Some(places) => places.get(vertex as usize).copied().unwrap_or(Place::New),
+        }
+    }
+
+    /// An edge in words.
+    pub(crate) fn edge_in_words(&self, from: u32, to: u32) -> String {
+        edge_between([self.place(from), self.place(to)])
+    }
+
+    /// An error of the rules around a vertex in the words of the mesh that was given.
+    pub(crate) fn error_at(&self, error: Error, vertex: u32) -> Error {
+        let spokes = self.topology.fan(vertex).spokes.into_iter();
+        let heads: Vec<Place> = spokes.map(|spoke| self.place(self.topology.head(spoke))).collect();
+        error.at(self.place(vertex), &heads, self.origin.halvings)
+    }
+
+    /// This net as one that a level has made of another, whose vertices and faces have become its first and
+    /// last vertices.
+    pub(crate) fn refined_from(mut self, coarse: &Net) -> Self {
+        self.origin = coarse.origin.clone();
+        self.origin.halvings += 1;
+        if coarse.origin.halvings == 0 {
+            let topology = &coarse.topology;
+            let vertices = (0..topology.vertex_count() as u32).map(|vertex| coarse.place(vertex));
+            let edges = (0..topology.edge_count()).map(|_| Place::New);
+            let faces = (0..topology.face_count() as u32).map(Place::Face);
+            self.origin.places = Some(Arc::new(vertices.chain(edges).chain(faces).collect()));
+        }
+        self
+    }
+
+    /// This net as one whose vertices are all new.
+    pub(crate) fn of_new_vertices(mut self) -> Self {
+        self.origin.places = Some(Arc::new(Vec::new()));
+        self
     }
 
     pub(crate) fn with_marked(mut self, vertices: &[u32]) -> Result<Self, Error> {
         for &vertex in vertices {
             if self.is_on_boundary(vertex) {
                 return Err(Error::Vertex {
-                    vertex,
+                    place: self.place(vertex),
                     what: "lies on the boundary and is marked as extraordinary".to_owned(),
                     accepted: "are inner vertices",
                 });
@@ -105,7 +167,13 @@ impl Net {
         }
         let topology = Topology::unchecked(&mesh);
         let known = KnotIntervals::known(&topology, |half| intervals[half as usize]);
-        Ok((Net::known(mesh, topology, known), originals))
+        let mut part = Net::known(mesh, topology, known);
+        let places = originals.iter().map(|&vertex| self.place(vertex)).collect();
+        part.origin = Origin {
+            places: Some(Arc::new(places)),
+            halvings: self.origin.halvings,
+        };
+        Ok((part, originals))
     }
 
     /// Refuses faces that are no quads.
@@ -115,8 +183,8 @@ impl Net {
         match odd {
             None => Ok(()),
             Some(face) => Err(Error::Vertex {
-                vertex: topology.origin(topology.face_halves(face).start),
-                what: format!("belongs to face {face} of {} corners", topology.face_size(face)),
+                place: self.place(topology.origin(topology.face_halves(face).start)),
+                what: format!("belongs to a face of {} corners", topology.face_size(face)),
                 accepted: "are quads; one level of NURSS makes them of all faces",
             }),
         }

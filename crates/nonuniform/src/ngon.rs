@@ -44,7 +44,7 @@ impl NGon {
             return Err(Error::ZeroSpokes {
                 spokes: (0..d.len()).filter(|&i| d[i] == 0.0).collect(),
                 valence: d.len(),
-                place: String::new(),
+                place: None,
             });
         }
         Ok(NGon { face })

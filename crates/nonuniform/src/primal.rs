@@ -41,8 +41,10 @@ pub fn nurss_step(net: &Net) -> Result<Step, Error> {
 /// One level by eigen-polyhedra: not the first one, which is that of NURSS.
 ///
 /// # Errors
-/// As [`nurss_step`], and those of [`EigenPolyhedron::new`] with the vertex.
+/// As [`nurss_step`], those of [`EigenPolyhedron::new`] with the vertex, and [`Error::Vertex`] for faces that
+/// are no quads.
 pub fn eigen_polyhedron_step(net: &Net) -> Result<Step, Error> {
+    net.check_quads()?;
     Primal::new(net).step(true)
 }
 
@@ -149,7 +151,11 @@ impl<'a> Primal<'a> {
                     let [left, right] = [topology.turned(spoke), topology.turned_back(spoke)];
                     let end = |half: Option<u32>| half.map_or(vertex, |half| topology.head(half));
                     Err(Error::ZeroSum {
-                        what: format!("edges {vertex}-{} and {vertex}-{}", end(right), end(left)),
+                        what: format!(
+                            "edges {} and {}",
+                            net.edge_in_words(vertex, end(right)),
+                            net.edge_in_words(vertex, end(left))
+                        ),
                         rule: "the edge point between them",
                     })
                 }
@@ -213,7 +219,7 @@ impl<'a> Primal<'a> {
             let zeros: Vec<String> = spokes
                 .iter()
                 .filter(|&&spoke| net.interval(spoke) == 0.0)
-                .map(|&spoke| format!("{vertex}-{}", topology.head(spoke)))
+                .map(|&spoke| net.edge_in_words(vertex, topology.head(spoke)))
                 .collect();
             return Err(Error::ZeroSum {
                 what: format!("edges {}", zeros.join(", ")),
@@ -236,7 +242,7 @@ impl<'a> Primal<'a> {
             let spokes = topology.fan(vertex).spokes;
             let d: Vec<f64> = spokes.iter().map(|&spoke| self.net.interval(spoke)).collect();
             let matrix = EigenPolyhedron::new(&d).and_then(|polyhedron| polyhedron.matrix());
-            let matrix = matrix.map_err(|error| error.at(vertex, &[]))?;
+            let matrix = matrix.map_err(|error| self.net.error_at(error, vertex))?;
             let points = around(topology, vertex, &spokes);
             let order = nurss::Order { n: spokes.len() };
             let row = |i: usize| Row::of(points.iter().copied().zip(matrix.row(i).iter().copied()));
@@ -308,5 +314,7 @@ fn split(net: &Net) -> Result<Net, Error> {
         }
     });
     let marked: Vec<u32> = net.marked().collect();
-    Net::known(mesh, topology, intervals).with_marked(&marked)
+    Net::known(mesh, topology, intervals)
+        .refined_from(net)
+        .with_marked(&marked)
 }

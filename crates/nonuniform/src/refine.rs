@@ -1,7 +1,9 @@
 //! Meshes refined by a scheme, in any number of levels.
 
 use crate::hybrid::{HybridNet, Outside};
-use crate::{Error, FirstLevel, Net, eigen_polyhedron_step, nurss_step};
+use crate::{
+    EigenPolyhedron, Error, FirstLevel, NGon, Net, Place, Spokes, eigen_polyhedron_step, first_level, nurss, nurss_step,
+};
 use eigenring_scheme::Table;
 use eigenring_surface::{Mesh, Point3};
 
@@ -31,6 +33,23 @@ pub const NAMES: [(&str, &str); 3] = [
         "knot intervals, on a hybrid net with extraordinary faces (Li, Wei and Zhang 2019)",
     ),
 ];
+
+impl Scheme {
+    /// Refuses intervals around a vertex for which the scheme does not exist, in the words of spokes.
+    pub(crate) fn check(self, spokes: &Spokes) -> Result<(), Error> {
+        match self {
+            Scheme::Nurss => nurss::matrix::<f64>(spokes).map(drop),
+            Scheme::EigenPolyhedron => {
+                nurss::matrix::<f64>(spokes)?;
+                EigenPolyhedron::new(spokes.intervals()).map(drop)
+            }
+            Scheme::Hnuss(rule) => {
+                NGon::new(spokes.intervals())?;
+                first_level::rows(spokes, rule).map(drop)
+            }
+        }
+    }
+}
 
 impl std::fmt::Display for Scheme {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -70,9 +89,8 @@ impl std::str::FromStr for Scheme {
 pub struct Refined {
     /// The mesh, with its intervals.
     pub mesh: Mesh,
-    /// Vertices, of the mesh of quads from which the hybrid net was made, with the simple rule for want of an
-    /// eigen-polyhedron.
-    pub simple: Vec<u32>,
+    /// Vertices, and faces as vertices, with the simple rule for want of an eigen-polyhedron.
+    pub simple: Vec<Place>,
 }
 
 /// A control mesh and nets that follow from it, each with the sparse map that makes its points of those
@@ -83,7 +101,8 @@ pub struct Refinement {
     tables: Vec<Table<f64>>,
     current: Current,
     /// As in [`Refined`].
-    pub simple: Vec<u32>,
+    pub simple: Vec<Place>,
+    /// Of the mesh that was given, and those since.
     levels: usize,
     split: bool,
 }
@@ -107,7 +126,7 @@ impl Refinement {
             tables: Vec::new(),
             current: Current::Primal(net.clone()),
             simple: Vec::new(),
-            levels: 0,
+            levels: mesh.features.levels as usize,
             split: false,
         };
         if let Scheme::Hnuss(rule) = scheme {
@@ -165,7 +184,7 @@ impl Refinement {
         self.scheme
     }
 
-    /// How many levels were made.
+    /// How many levels were made, with those that had made the mesh before.
     pub fn levels(&self) -> usize {
         self.levels
     }
@@ -222,7 +241,7 @@ pub fn refined(mesh: &Mesh, scheme: Scheme, levels: usize, outside: Outside) -> 
     }
     let mesh = mesh.without_unused();
     let net = refinement.net();
-    let refined = match mesh.weights() {
+    let mut refined = match mesh.weights() {
         None => {
             let points: Vec<[f64; 3]> = mesh.points().iter().map(|p| [p.x, p.y, p.z]).collect();
             let points = refinement.apply(&points)?;
@@ -236,6 +255,10 @@ pub fn refined(mesh: &Mesh, scheme: Scheme, levels: usize, outside: Outside) -> 
             net.with_points(points.collect(), Some(found.iter().map(|p| p[3]).collect()))
         }
     };
+    // the net of HNUSS says by its faces what it is
+    if refinement.hybrid().is_none() {
+        refined.features.levels = refinement.levels as u32;
+    }
     Ok(Refined {
         mesh: refined,
         simple: refinement.simple,

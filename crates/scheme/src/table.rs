@@ -27,6 +27,17 @@ impl<S> Default for Table<S> {
 }
 
 impl<S: Scalar> Table<S> {
+    /// An empty table with memory for so many rows and terms.
+    pub fn with_capacity(rows: usize, terms: usize) -> Self {
+        let mut starts = Vec::with_capacity(rows + 1);
+        starts.push(0);
+        Table {
+            starts,
+            sources: Vec::with_capacity(terms),
+            weights: Vec::with_capacity(terms),
+        }
+    }
+
     /// Adds a row.
     ///
     /// # Errors

@@ -39,6 +39,9 @@ pub struct Features {
     pub knots: BTreeMap<[u32; 2], f64>,
     /// Vertices that count as extraordinary whatever their valence is.
     pub extraordinary: BTreeSet<u32>,
+    /// How many levels of a scheme with knot intervals made the mesh, for schemes whose first level differs
+    /// from the others.
+    pub levels: u32,
 }
 
 /// What is left of a sharpness after one level.
@@ -56,6 +59,7 @@ impl Features {
         *self
             == Features {
                 boundary: self.boundary,
+                levels: self.levels,
                 ..Features::default()
             }
     }
@@ -79,6 +83,7 @@ impl Features {
             vertex_steps: vertices(&self.vertex_steps, &map),
             knots: edges(&self.knots, &map),
             extraordinary: self.extraordinary.iter().filter_map(|&v| map(v)).collect(),
+            levels: self.levels,
         }
     }
 

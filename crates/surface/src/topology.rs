@@ -72,16 +72,7 @@ impl Topology {
             origins,
             faces,
         };
-        let mut order: Vec<(u64, u32)> = (0..topology.origins.len() as u32)
-            .map(|half| (key(topology.ends(half)), half))
-            .collect();
-        order.sort_unstable();
-        for pair in order.windows(2) {
-            if pair[0].0 == pair[1].0 {
-                topology.twins[pair[0].1 as usize] = pair[1].1;
-                topology.twins[pair[1].1 as usize] = pair[0].1;
-            }
-        }
+        topology.join();
         for half in 0..topology.origins.len() as u32 {
             if topology.edges[half as usize] == NONE {
                 let number = topology.halves.len() as u32;
@@ -98,6 +89,42 @@ impl Topology {
             }
         }
         topology
+    }
+
+    /// Finds the twins: half-edges in lists by their smaller end, and in each list by the other one.
+    fn join(&mut self) {
+        let mut ends = vec![0_u32; self.first.len() + 1];
+        for half in 0..self.origins.len() as u32 {
+            let [low, _] = self.pair(half);
+            ends[low as usize + 1] += 1;
+        }
+        for vertex in 0..self.first.len() {
+            ends[vertex + 1] += ends[vertex];
+        }
+        let mut lists = vec![(0_u32, 0_u32); self.origins.len()];
+        let mut next = ends.clone();
+        for half in 0..self.origins.len() as u32 {
+            let [low, high] = self.pair(half);
+            let at = &mut next[low as usize];
+            lists[*at as usize] = (high, half);
+            *at += 1;
+        }
+        for vertex in 0..self.first.len() {
+            let list = &mut lists[ends[vertex] as usize..ends[vertex + 1] as usize];
+            list.sort_unstable();
+            for pair in list.windows(2) {
+                if pair[0].0 == pair[1].0 {
+                    self.twins[pair[0].1 as usize] = pair[1].1;
+                    self.twins[pair[1].1 as usize] = pair[0].1;
+                }
+            }
+        }
+    }
+
+    /// The ends of a half-edge, the smaller number first.
+    fn pair(&self, half: u32) -> [u32; 2] {
+        let [a, b] = self.ends(half);
+        edge(a, b)
     }
 
     /// The number of vertices, unused ones included.
@@ -121,63 +148,75 @@ impl Topology {
     }
 
     /// Where a half-edge starts.
+    #[inline]
     pub fn origin(&self, half: u32) -> u32 {
         self.origins[half as usize]
     }
 
     /// Where a half-edge leads to.
+    #[inline]
     pub fn head(&self, half: u32) -> u32 {
         self.origin(self.next(half))
     }
 
     /// Both, the start first.
+    #[inline]
     pub fn ends(&self, half: u32) -> [u32; 2] {
         [self.origin(half), self.head(half)]
     }
 
     /// The face of a half-edge.
+    #[inline]
     pub fn face(&self, half: u32) -> u32 {
         self.faces[half as usize]
     }
 
     /// The half-edges of a face.
+    #[inline]
     pub fn face_halves(&self, face: u32) -> std::ops::Range<u32> {
         self.starts[face as usize]..self.starts[face as usize + 1]
     }
 
     /// The number of corners of a face.
+    #[inline]
     pub fn face_size(&self, face: u32) -> usize {
         self.face_halves(face).len()
     }
 
     /// The next half-edge of the face.
+    #[inline]
     pub fn next(&self, half: u32) -> u32 {
         let range = self.face_halves(self.face(half));
         if half + 1 == range.end { range.start } else { half + 1 }
     }
 
     /// The half-edge before it.
+    #[inline]
     pub fn previous(&self, half: u32) -> u32 {
         let range = self.face_halves(self.face(half));
         if half == range.start { range.end - 1 } else { half - 1 }
     }
 
     /// The half-edge on the other side; `None` on the boundary.
+    #[inline]
     pub fn twin(&self, half: u32) -> Option<u32> {
         Some(self.twins[half as usize]).filter(|&twin| twin != NONE)
     }
 
     /// The number of a half-edge's edge.
+    #[inline]
     pub fn edge(&self, half: u32) -> u32 {
         self.edges[half as usize]
     }
 
     /// The first half-edge of an edge.
+    #[inline]
     pub fn half_of_edge(&self, edge: u32) -> u32 {
         self.halves[edge as usize]
     }
 
     /// The points of an edge, the smaller first.
+    #[inline]
     pub fn edge_points(&self, number: u32) -> [u32; 2] {
         let [a, b] = self.ends(self.half_of_edge(number));
         edge(a, b)
@@ -189,16 +228,19 @@ impl Topology {
     }
 
     /// The next spoke counter-clockwise: `None` at the end of an open fan.
+    #[inline]
     pub fn turned(&self, spoke: u32) -> Option<u32> {
         self.twin(self.previous(spoke))
     }
 
     /// The spoke before it.
+    #[inline]
     pub fn turned_back(&self, spoke: u32) -> Option<u32> {
         self.twin(spoke).map(|twin| self.next(twin))
     }
 
     /// The first spoke of a vertex; `None` for an unused one.
+    #[inline]
     pub fn first_spoke(&self, vertex: u32) -> Option<u32> {
         Some(self.first[vertex as usize]).filter(|&half| half != NONE)
     }
@@ -289,10 +331,4 @@ impl Topology {
         }
         loops
     }
-}
-
-/// One number for the pair of an edge's points.
-fn key(ends: [u32; 2]) -> u64 {
-    let [a, b] = edge(ends[0], ends[1]);
-    (u64::from(a) << 32) | u64::from(b)
 }

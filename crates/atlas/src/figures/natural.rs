@@ -7,13 +7,14 @@
 use super::grid::{Grid, NARROWEST, narrowest};
 use super::nets::NaturalNet;
 use super::subject::{Subject, chosen, featured, tell};
-use super::{Drawing, FigureEntry, Inputs};
+use super::{Drawing, FigureEntry, Inputs, uneven};
 use crate::error::Error;
 use eigenring_figure::{Figure, Panel};
 
 pub const ENTRY: FigureEntry = FigureEntry {
     valences: &[5, 8, 11],
     schemes: Some(&[]),
+    knots: true,
     ..FigureEntry::new(
         "natural-configurations",
         "control nets of the characteristic maps; columns: valences, rows: lambdas or schemes",
@@ -28,6 +29,9 @@ const RINGS: usize = 3;
 const SIDE: f64 = 38.0;
 
 fn build(inputs: &Inputs<'_>) -> Result<Vec<Drawing>, Error> {
+    if let Some(spokes) = inputs.knots {
+        return uneven::control_nets(&ENTRY, inputs, spokes);
+    }
     let columns = inputs.valences.iter().map(|&valence| match inputs.schemes {
         [] => featured(inputs, valence),
         _ => chosen(inputs, valence),

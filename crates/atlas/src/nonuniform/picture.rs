@@ -3,7 +3,7 @@
 
 use crate::error::Error;
 use crate::render::{Show, Subject};
-use eigenring_nonuniform::{Limits, Outside, Refinement, Scheme};
+use eigenring_nonuniform::{Limits, Outside, Place, Refinement, Scheme};
 use eigenring_surface::{Mesh, Point3, Vector3};
 
 /// Quads of the net for each pixel of a picture: cells are about three pixels wide.
@@ -12,7 +12,7 @@ const PER_PIXEL: f64 = 0.12;
 const MOST_QUADS: f64 = 5e5;
 const MOST_LEVELS: usize = 9;
 
-/// The surface of a mesh for a picture of so many pixels a side, and the vertices that have the simple rule
+/// The surface of a mesh for a picture of so many pixels a side, and the places that have the simple rule
 /// for want of an eigen-polyhedron.
 ///
 /// # Errors
@@ -23,7 +23,7 @@ pub fn subject(
     outside: Outside,
     size: usize,
     show: Show,
-) -> Result<(Subject<'static>, Vec<u32>), Error> {
+) -> Result<(Subject<'static>, Vec<Place>), Error> {
     if matches!(show, Show::Gauss | Show::Mean | Show::Wireframe) {
         return Err(Error::Usage {
             message: format!("curvature and parameters of {scheme} are not computed"),

@@ -12,7 +12,7 @@ use eigenring_atlas::meshes::{self, Pool};
 use eigenring_atlas::on_mesh::OnMesh;
 use eigenring_atlas::schemes::SchemeName;
 use eigenring_atlas::table::{Format, pretty};
-use eigenring_nonuniform::{Outside, Scheme as NonUniform};
+use eigenring_nonuniform::{Outside, Place, Scheme as NonUniform};
 use eigenring_surface::{Boundary, Mesh, Refiner};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -86,11 +86,11 @@ impl IntervalArgs {
     }
 
     /// Says where the simple rule was taken for want of an eigen-polyhedron.
-    pub fn tell(&self, simple: &[u32]) {
+    pub fn tell(&self, simple: &[Place]) {
         if !simple.is_empty() {
-            let list: Vec<String> = simple.iter().map(u32::to_string).collect();
+            let list: Vec<String> = simple.iter().map(Place::to_string).collect();
             note(&format!(
-                "the simple rule was taken at vertices {}, which have no eigen-polyhedron",
+                "the simple rule was taken for want of an eigen-polyhedron at {}",
                 list.join(", ")
             ));
         }

@@ -33,14 +33,13 @@ pub(super) fn convert(net: &Net, rule: FirstLevel, outside: Outside) -> Result<C
         let spokes = net.topology().fan(vertex).spokes;
         if net.is_irregular(vertex) {
             let d: Vec<f64> = spokes.iter().map(|&spoke| net.interval(spoke)).collect();
-            let heads: Vec<u32> = spokes.iter().map(|&spoke| net.topology().head(spoke)).collect();
-            NGon::new(&d).map_err(|error| error.at(vertex, &heads))?;
+            NGon::new(&d).map_err(|error| net.error_at(error, vertex))?;
             let found = match irregular_rows(net, vertex, &spokes, rule) {
                 Err(Error::OutsideDomain { .. }) if outside == Outside::Simple => {
-                    simple.push(vertex);
+                    simple.push(net.place(vertex));
                     None
                 }
-                found => Some(found.map_err(|error| error.at(vertex, &heads))?),
+                found => Some(found.map_err(|error| net.error_at(error, vertex))?),
             };
             if let Some(found) = found.flatten() {
                 for (&spoke, row) in spokes.iter().zip(found) {
@@ -91,7 +90,8 @@ fn check(net: &Net) -> Result<(), Error> {
         } else {
             continue;
         };
-        return Err(Error::Vertex { vertex, what, accepted });
+        let place = net.place(vertex);
+        return Err(Error::Vertex { place, what, accepted });
     }
     Ok(())
 }
@@ -128,7 +128,7 @@ fn weight(net: &Net, line: u32, own: u32, opposite: u32) -> Result<f64, Error> {
     let topology = net.topology();
     let [v, w] = topology.edge_points(topology.edge(own));
     Err(Error::ZeroSum {
-        what: format!("edge {v}-{w} and of the edges beside it on its line"),
+        what: format!("edge {} and of the edges beside it on its line", net.edge_in_words(v, w)),
         rule: "doubling a knot",
     })
 }
@@ -240,6 +240,6 @@ impl Groups {
         }
         let fine = Topology::unchecked(&mesh);
         let known = KnotIntervals::known(&fine, |half| intervals[half as usize]);
-        Ok(Net::known(mesh, fine, known))
+        Ok(Net::known(mesh, fine, known).of_new_vertices())
     }
 }

@@ -24,7 +24,9 @@ impl HybridNet {
     fn step(&self) -> Result<Step, Error> {
         let net = &self.net;
         let topology = net.topology();
-        let mut table = Table::default();
+        let [vertices, edges, faces] = [topology.vertex_count(), topology.edge_count(), topology.face_count()];
+        // n-gons of more corners than a vertex has neighbours are few
+        let mut table = Table::with_capacity(vertices + edges + faces, 9 * vertices + 6 * edges + 4 * faces);
         for number in 0..topology.vertex_count() as u32 {
             match self.corners[number as usize] {
                 Some(half) => self.corner(&mut table, half)?,
@@ -67,7 +69,7 @@ impl HybridNet {
         let face = topology.face(half);
         let halves = topology.face_halves(face);
         // each corner makes the weights of all: n is small, and corners are few
-        let ngon = NGon::new(&self.spokes(face)).map_err(|error| error.at(topology.origin(half), &[]))?;
+        let ngon = NGon::new(&self.spokes(face)).map_err(|error| self.net.error_at(error, topology.origin(half)))?;
         let own = (half - halves.start) as usize;
         let terms = halves
             .enumerate()
@@ -215,6 +217,6 @@ impl HybridNet {
         }
         let fine = Topology::unchecked(&mesh);
         let known = KnotIntervals::known(&fine, |half| intervals[half as usize]);
-        Ok(Net::known(mesh, fine, known))
+        Ok(Net::known(mesh, fine, known).of_new_vertices())
     }
 }

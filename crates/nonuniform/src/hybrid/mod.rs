@@ -7,7 +7,7 @@
 mod convert;
 mod halve;
 
-use crate::{Error, FirstLevel, Net};
+use crate::{Error, FirstLevel, Net, Place};
 use eigenring_scheme::Table;
 
 /// What is done where the eigen-polyhedron, on which the rules `printed` and `improved` rest, does not exist.
@@ -36,7 +36,7 @@ pub struct Converted {
     /// The net.
     pub net: HybridNet,
     /// Vertices of the mesh where the simple rule was taken because there is no eigen-polyhedron.
-    pub simple: Vec<u32>,
+    pub simple: Vec<Place>,
 }
 
 impl HybridNet {

@@ -12,7 +12,7 @@
 mod corner;
 mod patch;
 
-use crate::{Error, FirstLevel, HybridNet, Outside, Refinement, Scheme};
+use crate::{Error, FirstLevel, HybridNet, Outside, Place, Refinement, Scheme};
 use corner::Corner;
 use eigenring_surface::{Mesh, Point3, Vector3};
 use patch::Jet;
@@ -33,8 +33,8 @@ pub struct Sample {
 pub struct Surface {
     /// The hybrid net, and the nets after one and two halvings.
     levels: Vec<Level>,
-    /// Vertices with the simple rule for want of an eigen-polyhedron.
-    pub simple: Vec<u32>,
+    /// Vertices, and faces as vertices, with the simple rule for want of an eigen-polyhedron.
+    pub simple: Vec<Place>,
     /// Whether faces were split by a level of NURSS first.
     split: bool,
 }

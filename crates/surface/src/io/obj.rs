@@ -149,7 +149,7 @@ impl<'a> Tag<'a> {
         let &Tag { line, name, .. } = self;
         let refuse = |what: String, accepted| Err(syntax(Some(line), format!("tag {name}: {what}"), accepted));
         let points = mesh.points().len();
-        if name != "interpolateboundary" {
+        if !matches!(name, "interpolateboundary" | "levels") {
             // an integer beyond the first two of 'steps' is the number of steps
             let count = if name == "steps" {
                 self.integers.len().saturating_sub(1)
@@ -223,10 +223,11 @@ impl<'a> Tag<'a> {
                 lines.vertex_marks.insert(v, line);
                 features.extraordinary.insert(v);
             }
-            ("crease" | "corner" | "knot" | "steps" | "extraordinary" | "interpolateboundary", ..) => {
+            ("levels", &[levels], _) => features.levels = levels,
+            ("crease" | "corner" | "knot" | "steps" | "extraordinary" | "levels" | "interpolateboundary", ..) => {
                 return refuse(
                     format!("{} integers and {} numbers", self.integers.len(), self.numbers.len()),
-                    "are crease 2/1/0, corner 1/1/0, knot 2/1/0, steps 2/1/0 or 1/1/0, extraordinary 1/0/0, interpolateboundary 1/0/0",
+                    "are crease 2/1/0, corner 1/1/0, knot 2/1/0, steps 2/1/0 or 1/1/0, extraordinary 1/0/0, levels 1/0/0, interpolateboundary 1/0/0",
                 );
             }
             // tags of other rules of OpenSubdiv, such as face-varying data
@@ -282,6 +283,9 @@ pub(super) fn write(mesh: &Mesh, to: &mut impl Write) -> Result<(), Error> {
     }
     for v in &features.extraordinary {
         writeln!(to, "t extraordinary 1/0/0 {v}")?;
+    }
+    if features.levels > 0 {
+        writeln!(to, "t levels 1/0/0 {}", features.levels)?;
     }
     let mode = features.boundary.map(|boundary| match boundary {
         Boundary::Shrink => 0,
