@@ -8,8 +8,10 @@ certificate is not read: each status is derived here from the scheme and the val
 Covered: Catmull-Clark, members of the lambda-scheme, and one-ring scheme files with numbers as weights; Catmull-Clark
 and Doo-Sabin at all valences from one on; the
 statements row_sums, hull, dominant, subdominant, regular, injective, bounded_curvature, non_degenerate, strict
-and corner, with the numbers beside them. Not covered, and counted as such: gauss, other schemes, and
-certificates of ranges, of which --samples members are checked one by one, which is no proof of a range.
+and corner, with the numbers beside them. With knot intervals: HNUSS around a vertex, and for every valence and all
+positive intervals, by its lemmas in exact numbers; NURSS and eigen-polyhedra, of which nothing is proven. Not covered,
+and counted as such: gauss, other schemes, and certificates of ranges, of which --samples members are checked one by
+one, which is no proof of a range.
 
 Exit code 0: all that is covered agrees. 1: something differs, or is proven there and undecided here. 2: bad input.
 
@@ -31,6 +33,7 @@ try:
     from recheck.certificates import check
     from recheck.exact import IDENTITIES
     from recheck.faults import self_test
+    from recheck.intervals import check as check_intervals
     from recheck.ranges import check_ranges
     from recheck.valences import check as check_valences
 except ModuleNotFoundError as missing:
@@ -81,7 +84,9 @@ def main():
     for path in files_of(arguments.paths or [results / "certificates"]):
         try:
             document = json.loads(path.read_text())
-            if "from" in document:
+            if "bernstein" in document:
+                differences, count, reason = check_intervals(document)
+            elif "from" in document:
                 differences, count, reason = check_valences(document)
             elif "checks" not in document or "input" not in document:
                 left["a range of parameters"] = left.get("a range of parameters", 0) + 1

@@ -6,6 +6,7 @@ from flint import fmpq
 
 from .certificates import check
 from .exact import fraction
+from .interval_faults import self_test as interval_self_test
 from .schemes import OneRing
 from .statements import PROVEN, REFUTED, UNDECIDED, statements
 from .valences import SAMPLED, CatmullClark, DooSabin, prove, sampled
@@ -78,4 +79,4 @@ def self_test():
         differences = check({**document, "checks": spoilt})[0]
         good &= len(differences) == 1 and differences[0].startswith(name)
         print(f"{'ok ' if len(differences) == 1 else 'BAD'}  a changed certificate: {differences}")
-    return good
+    return interval_self_test() and good

@@ -61,6 +61,89 @@ fn samples_with<'s, 'r>(
     Ok(samples.into_iter().flatten().collect())
 }
 
+/// Samples as columns, the coordinates of a point next to each other; NaN where something does not exist.
+#[derive(Clone, Debug, Default)]
+pub struct Columns {
+    /// Points, 3 numbers each.
+    pub points: Vec<f64>,
+    /// First derivatives by s and t, 6 numbers each.
+    pub first: Vec<f64>,
+    /// Second derivatives by ss, st, tt, 9 numbers each.
+    pub second: Vec<f64>,
+    /// Unit normals, 3 numbers each.
+    pub normals: Vec<f64>,
+    /// Gauss curvature.
+    pub gauss: Vec<f64>,
+    /// Mean curvature.
+    pub mean: Vec<f64>,
+    /// Principal curvatures, 2 numbers each.
+    pub principal: Vec<f64>,
+    /// What the surface is like there.
+    pub kinds: Vec<Kind>,
+}
+
+/// Places that are evaluated before their samples become columns: these then stay in the processor's cache.
+const AT_ONCE: usize = 1 << 14;
+
+/// The samples at places as columns, in parallel.
+///
+/// # Errors
+/// As [`samples`].
+pub fn columns(surface: &Surface<'_>, places: &[Place]) -> Result<Columns, Error> {
+    let count = places.len();
+    let zeros = |width: usize| vec![0.0; width * count];
+    let mut columns = Columns {
+        points: zeros(3),
+        first: zeros(6),
+        second: zeros(9),
+        normals: zeros(3),
+        gauss: zeros(1),
+        mean: zeros(1),
+        principal: zeros(2),
+        kinds: Vec::with_capacity(count),
+    };
+    let mut known = HashMap::new();
+    for (index, part) in places.chunks(AT_ONCE).enumerate() {
+        let found = samples_with(surface, &mut known, part)?;
+        let start = index * AT_ONCE;
+        let rows = start..start + part.len();
+        let wide = |width: usize| width * rows.start..width * rows.end;
+        let targets = (
+            columns.points[wide(3)].par_chunks_mut(3),
+            columns.first[wide(6)].par_chunks_mut(6),
+            columns.second[wide(9)].par_chunks_mut(9),
+            columns.normals[wide(3)].par_chunks_mut(3),
+            columns.gauss[wide(1)].par_iter_mut(),
+            columns.mean[wide(1)].par_iter_mut(),
+            columns.principal[wide(2)].par_chunks_mut(2),
+            found.par_iter(),
+        );
+        let targets = targets.into_par_iter().with_min_len(AT_ONCE / 16);
+        targets.for_each(|(point, first, second, normal, gauss, mean, principal, sample)| {
+            vectors(point, Some([sample.position.coords]));
+            vectors(first, sample.first);
+            vectors(second, sample.second);
+            vectors(normal, sample.normal.map(|normal| [normal]));
+            *gauss = sample.gauss.unwrap_or(f64::NAN);
+            *mean = sample.mean.unwrap_or(f64::NAN);
+            principal.copy_from_slice(&sample.principal.unwrap_or([f64::NAN; 2]));
+        });
+        columns.kinds.extend(found.iter().map(|sample| sample.kind));
+    }
+    Ok(columns)
+}
+
+fn vectors<const N: usize>(target: &mut [f64], source: Option<[Vector3<f64>; N]>) {
+    match source {
+        Some(source) => {
+            for (target, vector) in target.chunks_exact_mut(3).zip(source) {
+                target.copy_from_slice(vector.as_slice());
+            }
+        }
+        None => target.fill(f64::NAN),
+    }
+}
+
 pub(crate) fn number(x: Option<f64>) -> Cell {
     x.filter(|x| x.is_finite()).map_or(Cell::Empty, Cell::from)
 }

@@ -9,6 +9,10 @@ fn place() -> Place {
     let faces = "f 1 2 5 4\nf 2 3 6 5\nf 4 5 8 7\nf 5 6 9 8\n";
     place.write("grid.obj", points.collect::<String>() + faces);
     place.ok(&["make", "cube", "-o", "cube.obj"]);
+    place.write(
+        "hexagon.obj",
+        "v 2 0 0\nv 1 2 0\nv -1 2 0\nv -2 0 0\nv -1 -2 0\nv 1 -2 0\nf 1 2 3 4 5 6\n",
+    );
     place
 }
 
@@ -59,6 +63,33 @@ fn intervals_are_read_and_written_again() {
     let subdivide = |from: &str, levels: &str, to: &str| {
         place.ok(&["subdivide", from, "--scheme", "hnuss", "--levels", levels, "-o", to]);
     };
+    // the first level of eigen-polyhedra is that of NURSS, and others are not
+    for (first, rest) in [("1", "2"), ("2", "1")] {
+        let subdivide = |from: &str, levels: &str, to: &str| {
+            place.ok(&[
+                "subdivide",
+                from,
+                "--scheme",
+                "eigen-polyhedron",
+                "--levels",
+                levels,
+                "-o",
+                to,
+            ]);
+        };
+        subdivide("uneven.obj", "3", "at-once.obj");
+        subdivide("uneven.obj", first, "first.obj");
+        assert!(place.read("first.obj").contains(&format!("t levels 1/0/0 {first}\n")));
+        subdivide("first.obj", rest, "again.obj");
+        assert_eq!(place.read("at-once.obj"), place.read("again.obj"));
+    }
+    with(&place, "hexagon.obj", "later.obj", "t levels 1/0/0 1\n");
+    let run = place.run(&["subdivide", "later.obj", "--scheme", "eigen-polyhedron"]);
+    assert!(
+        run.code == Some(2) && run.stderr.contains("face of 6 corners"),
+        "{}",
+        run.stderr
+    );
     subdivide("uneven.obj", "3", "at-once.obj");
     for (first, rest) in [("0", "3"), ("1", "2"), ("2", "1")] {
         subdivide("uneven.obj", first, "first.obj");
@@ -193,6 +224,82 @@ fn what_has_no_rule_is_refused_with_the_element() {
             "{bad}: {}",
             run.stderr
         );
+    }
+}
+
+/// Messages are in the numbers of the file: intervals that levels have halved, vertices that faces have become,
+/// and vertices after unused ones.
+#[test]
+fn messages_name_what_was_given() {
+    let place = place();
+    // the middle of a hexagon becomes an extraordinary vertex with its intervals
+    let knots = "t knot 2/1/0 0 1 10\nt knot 2/1/0 2 3 10\nt knot 2/1/0 4 5 10\n";
+    with(&place, "hexagon.obj", "hexagon.obj", knots);
+    // the same cube after an unused vertex
+    let cube = place.read("cube.obj");
+    let moved = cube.lines().map(|line| match line.strip_prefix("f ") {
+        Some(corners) => {
+            let corners = corners.split(' ').map(|corner| corner.parse::<u32>().unwrap() + 1);
+            format!(
+                "f {}\n",
+                corners.map(|corner| corner.to_string()).collect::<Vec<_>>().join(" ")
+            )
+        }
+        None => format!("{line}\n"),
+    });
+    let moved = "v 9 9 9\n".to_owned() + &moved.collect::<String>();
+    place.write("far.obj", moved.clone() + "t knot 2/1/0 1 2 1e5\n");
+    place.write("none.obj", moved.clone() + "t knot 2/1/0 0 2 1\n");
+    place.write("two.obj", moved + "t knot 2/1/0 1 2 3\nt knot 2/1/0 5 6 4\n");
+    let cases = [
+        (
+            "blending --knots 10,1,1,10,1",
+            "for the intervals [10.0, 1.0, 1.0, 10.0, 1.0]",
+        ),
+        ("blending --knots 0,1,0,1,1 --schemes nurss", "spokes 0 and 2"),
+        (
+            "subdivide hexagon.obj --scheme eigen-polyhedron --levels 3",
+            "at the middle of face 0 for the intervals [10.0, 1.0, 10.0, 1.0, 10.0, 1.0]",
+        ),
+        (
+            "subdivide hexagon.obj --scheme hnuss",
+            "at the middle of face 0 for the intervals [10.0,",
+        ),
+        (
+            "subdivide far.obj --scheme eigen-polyhedron --levels 3",
+            "at vertex 1 for the intervals",
+        ),
+        ("subdivide none.obj --scheme nurss", "edge 0-2"),
+        ("subdivide two.obj --scheme hnuss", "edges 1-2 (3) and 5-6 (4)"),
+    ];
+    for (line, words) in cases {
+        let run = place.run(&line.split(' ').collect::<Vec<_>>());
+        let last = run.stderr.lines().last().unwrap_or_default();
+        assert!(
+            run.code == Some(2) && last.starts_with("error: "),
+            "{line}: {}",
+            run.stderr
+        );
+        assert!(last.contains(words), "{line}: {}", run.stderr);
+    }
+    let run = place.run(&["subdivide", "hexagon.obj", "--scheme", "hnuss", "--outside", "simple"]);
+    assert!(
+        run.code == Some(0) && run.stderr.contains("at the middle of face 0"),
+        "{}",
+        run.stderr
+    );
+}
+
+#[test]
+fn natural_configurations_are_drawn_with_intervals() {
+    let place = place();
+    place.ok(&["plot", "natural-configurations", "--knots", "1,3,1,2,1", "-o", "a.svg"]);
+    let rows = crate::common::csv_rows(&place.read("a.csv"));
+    // of an eigenvector of lambda all points shrink to the origin: none is the origin but the vertex at most
+    for scheme in ["nurss", "eigen-polyhedron", "hnuss"] {
+        let of: Vec<_> = rows.iter().filter(|row| row["scheme"] == scheme).collect();
+        let expected = if scheme == "hnuss" { 5 * 16 } else { 1 + 5 * 12 };
+        assert_eq!(of.len(), expected, "{scheme}");
     }
 }
 

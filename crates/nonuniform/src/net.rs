@@ -1,7 +1,7 @@
 //! A mesh with knot intervals, and what rules ask of it.
 
-use crate::intervals::KnotIntervals;
 use crate::error::edge_between;
+use crate::intervals::KnotIntervals;
 use crate::{Error, Place, Spokes};
 use eigenring_surface::{Features, Mesh, Point3, Topology};
 use std::collections::BTreeSet;

@@ -9,6 +9,7 @@ mod maps;
 mod mesh;
 mod proofs;
 mod scheme;
+mod solve;
 mod spectrum;
 mod tuning;
 mod values;

@@ -4,6 +4,7 @@ use crate::failure::Failure;
 use crate::figure::Picture;
 use crate::foreign;
 use crate::scheme::Scheme;
+use crate::solve::Asked;
 use crate::values;
 use crate::work;
 use eigenring_atlas::curvature::{centre_table, curvatures, euler_of_smooth, summary};
@@ -15,6 +16,8 @@ use eigenring_atlas::{files, limits, meshes};
 use eigenring_surface::{self as surface, Boundary, Place, Point3, Refiner, Rules, Surface, features};
 use numpy::{PyArray1, PyArrayDyn};
 use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyList, PyString};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -308,10 +311,10 @@ impl Mesh {
         };
         let places: Vec<Place> = (0..u.len()).map(place).collect();
         check(places.len() as f64 * 600.0, &format!("{} points", places.len()))?;
-        let samples = self.on_surface(py, &scheme, progress, move |surface| {
-            Ok(limits::samples(surface, &places)?)
+        let columns = self.on_surface(py, &scheme, progress, move |surface| {
+            Ok(limits::columns(surface, &places)?)
         })?;
-        Limits::new(py, &samples)
+        Limits::new(py, columns)
     }
 
     /// The limit surface as a mesh of n x n quads for each quad, and for each corner of other faces. Points
@@ -398,6 +401,74 @@ impl Mesh {
             let mut object = summary(&found).json();
             object["centres"] = centre_table(surface, &found, &radii)?.json();
             Ok(object)
+        })?;
+        Ok(values::object(py, &json)?)
+    }
+
+    /// Solves a model problem on the scheme's basis functions, and measures the errors on each level: the dict
+    /// that ``eigenring iga PROBLEM --format json`` prints.
+    ///
+    /// ``problem`` is ``"poisson"``, ``"l2"``, ``"biharmonic"`` or ``"patch-test"``, with the ``solution``
+    /// ``"sin"``, ``"exp"``, ``"mix"``, ``"lin"`` or ``"quadratic"`` of x and y; or ``"spectrum"``, the
+    /// ``count`` lowest eigenvalues of the Laplacian. The mesh is of quads, planar with z = 0 or closed.
+    /// ``bc`` is ``"dirichlet"``, ``"neumann"`` or ``"closed"``, the latter with ``sphere=True`` on the unit
+    /// sphere; ``boundary`` ``"open"`` or ``"natural"``; ``dirichlet`` ``"projection"`` or ``"nitsche"``;
+    /// ``gauss`` points of an element in each direction; ``depth`` annuli at extraordinary vertices; ``tail``
+    /// ``"drop"`` or ``"scaled"``; ``solver`` ``"cholesky"`` or ``"multigrid"``. Errors L2, H1, H2 and Linf
+    /// are absolute; ``levels`` 0 to ``levels - 1``, each with half the width.
+    ///
+    /// >>> import eigenring
+    /// >>> points = [[x, y, 0] for y in range(3) for x in range(3)]
+    /// >>> grid = eigenring.Mesh(points, [[0, 1, 4, 3], [1, 2, 5, 4], [3, 4, 7, 6], [4, 5, 8, 7]])
+    /// >>> found = grid.solve("catmull-clark", "poisson", solution="sin", levels=3)
+    /// >>> errors = [level["L2"] for level in found["levels"]]
+    /// >>> errors[0] > 8 * errors[1] > 64 * errors[2]
+    /// True
+    #[pyo3(signature = (scheme, problem = "poisson", *, solution = "exp", levels = 4, bc = None, boundary = "open", dirichlet = None, gauss = 4, depth = None, tail = "drop", solver = None, sphere = false, count = None, progress = None))]
+    #[allow(clippy::too_many_arguments)]
+    fn solve<'py>(
+        &self,
+        py: Python<'py>,
+        scheme: Named<'_>,
+        problem: &str,
+        solution: &str,
+        levels: usize,
+        bc: Option<&str>,
+        boundary: &str,
+        dirichlet: Option<&str>,
+        gauss: usize,
+        depth: Option<usize>,
+        tail: &str,
+        solver: Option<&str>,
+        sphere: bool,
+        count: Option<usize>,
+        progress: Option<Py<PyAny>>,
+    ) -> Result<Bound<'py, PyAny>, Failure> {
+        let asked = Asked {
+            problem,
+            solution,
+            levels,
+            bc,
+            boundary,
+            dirichlet,
+            gauss,
+            depth,
+            tail,
+            solver,
+            sphere,
+            count,
+        };
+        let question = asked.question()?;
+        let (owner, name) = scheme.on_mesh(py)?;
+        let mesh = Arc::clone(&self.mesh);
+        let json = work::run(py, progress, move |reporter| {
+            let _kept = owner;
+            let tuner = Tuner {
+                progress: reporter,
+                ..Tuner::default()
+            };
+            let rules = meshes::rules(&name, &mesh, &[], &tuner)?;
+            question.answer(&mesh, &rules, |bytes| check(bytes, &format!("{levels} levels")), reporter)
         })?;
         Ok(values::object(py, &json)?)
     }
@@ -494,59 +565,61 @@ impl Mesh {
 /// >>> found = square.limit("catmull-clark", [0, 0], [0.5, 0.25], [0.5, 0.25])
 /// >>> found.normals[:, 2].round(12).tolist(), found.kinds
 /// ([1.0, 1.0], ['regular', 'regular'])
-#[pyclass(frozen, get_all, module = "eigenring", name = "LimitPoints")]
+#[pyclass(frozen, module = "eigenring", name = "LimitPoints")]
 #[derive(Debug)]
 pub struct Limits {
     /// float64 of shape (n, 3).
+    #[pyo3(get)]
     points: Py<PyArrayDyn<f64>>,
     /// float64 of shape (n, 2, 3): derivatives by u and v.
+    #[pyo3(get)]
     first: Py<PyArrayDyn<f64>>,
     /// float64 of shape (n, 3, 3): derivatives by uu, uv, vv.
+    #[pyo3(get)]
     second: Py<PyArrayDyn<f64>>,
     /// float64 of shape (n, 3): unit normals.
+    #[pyo3(get)]
     normals: Py<PyArrayDyn<f64>>,
     /// float64 of shape (n,): Gauss curvature.
+    #[pyo3(get)]
     gauss: Py<PyArray1<f64>>,
     /// float64 of shape (n,): mean curvature, negative on a sphere with outward normal.
+    #[pyo3(get)]
     mean: Py<PyArray1<f64>>,
     /// float64 of shape (n, 2): principal curvatures, the smaller first.
+    #[pyo3(get)]
     principal: Py<PyArrayDyn<f64>>,
-    /// What the surface is like: regular, flat, bounded, unbounded, not defined.
-    kinds: Vec<String>,
+    kinds: Vec<surface::Kind>,
+    listed: PyOnceLock<Py<PyList>>,
 }
 
 impl Limits {
-    fn new(py: Python<'_>, samples: &[surface::Sample]) -> Result<Self, Failure> {
-        let n = samples.len();
-        let missing = surface::Vector3::repeat(f64::NAN);
-        let vector = |v: surface::Vector3<f64>| [v.x, v.y, v.z];
-        let positions = samples.iter().flat_map(|s| vector(s.position.coords)).collect();
-        let first = samples
-            .iter()
-            .flat_map(|s| s.first.unwrap_or([missing; 2]))
-            .flat_map(vector);
-        let second = samples
-            .iter()
-            .flat_map(|s| s.second.unwrap_or([missing; 3]))
-            .flat_map(vector);
-        let normals = samples.iter().flat_map(|s| vector(s.normal.unwrap_or(missing)));
-        let number = |of: fn(&surface::Sample) -> Option<f64>| {
-            let numbers = samples.iter().map(|s| of(s).unwrap_or(f64::NAN)).collect();
-            PyArray1::from_vec(py, numbers).unbind()
-        };
-        let principal = samples
-            .iter()
-            .flat_map(|s| s.principal.unwrap_or([f64::NAN; 2]))
-            .collect();
+    fn new(py: Python<'_>, columns: limits::Columns) -> Result<Self, Failure> {
+        let n = columns.kinds.len();
         Ok(Limits {
-            points: values::shaped(py, positions, &[n, 3])?.unbind(),
-            first: values::shaped(py, first.collect(), &[n, 2, 3])?.unbind(),
-            second: values::shaped(py, second.collect(), &[n, 3, 3])?.unbind(),
-            normals: values::shaped(py, normals.collect(), &[n, 3])?.unbind(),
-            gauss: number(|s| s.gauss),
-            mean: number(|s| s.mean),
-            principal: values::shaped(py, principal, &[n, 2])?.unbind(),
-            kinds: samples.iter().map(|s| s.kind.name().to_owned()).collect(),
+            points: values::shaped(py, columns.points, &[n, 3])?.unbind(),
+            first: values::shaped(py, columns.first, &[n, 2, 3])?.unbind(),
+            second: values::shaped(py, columns.second, &[n, 3, 3])?.unbind(),
+            normals: values::shaped(py, columns.normals, &[n, 3])?.unbind(),
+            gauss: PyArray1::from_vec(py, columns.gauss).unbind(),
+            mean: PyArray1::from_vec(py, columns.mean).unbind(),
+            principal: values::shaped(py, columns.principal, &[n, 2])?.unbind(),
+            kinds: columns.kinds,
+            listed: PyOnceLock::new(),
         })
+    }
+}
+
+#[pymethods]
+impl Limits {
+    /// What the surface is like: regular, flat, bounded, unbounded, not defined.
+    #[getter]
+    fn kinds(&self, py: Python<'_>) -> PyResult<Py<PyList>> {
+        // few words for many points: each is one string
+        let list = self.listed.get_or_try_init(py, || {
+            let names = self.kinds.iter().map(|kind| PyString::intern(py, kind.name()));
+            Ok::<_, PyErr>(PyList::new(py, names.collect::<Vec<_>>())?.unbind())
+        });
+        Ok(list?.clone_ref(py))
     }
 }

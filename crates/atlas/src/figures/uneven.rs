@@ -71,7 +71,11 @@ fn panels(
     let figure = Figure::new(inputs.width, grid.height(side) + HEADING, name).heading(heading(spokes));
     maps.iter().enumerate().fold(figure, |figure, (column, (scheme, map))| {
         let (at_row, at_column) = grid.place(0, column);
-        figure.panel(at_row, at_column, Panel::new(chart(map)).title(title(*scheme, map.factors)))
+        figure.panel(
+            at_row,
+            at_column,
+            Panel::new(chart(map)).title(title(*scheme, map.factors)),
+        )
     })
 }
 
@@ -87,7 +91,9 @@ pub fn build(entry: &FigureEntry, inputs: &Inputs<'_>, spokes: &Spokes) -> Resul
         "Jacobian / mean of second ring",
     );
     let name = "Characteristic maps with knot intervals";
-    let figure = panels(name, inputs, spokes, &maps, BAR, |map| chart(map, outer_mean(map), &scale));
+    let figure = panels(name, inputs, spokes, &maps, BAR, |map| {
+        chart(map, outer_mean(map), &scale)
+    });
     let mut table = Table::new(["scheme", "first", "second", "least", "greatest", "knots"]);
     for (scheme, map) in &maps {
         let mean = outer_mean(map);

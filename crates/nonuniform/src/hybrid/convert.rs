@@ -128,7 +128,10 @@ fn weight(net: &Net, line: u32, own: u32, opposite: u32) -> Result<f64, Error> {
     let topology = net.topology();
     let [v, w] = topology.edge_points(topology.edge(own));
     Err(Error::ZeroSum {
-        what: format!("edge {} and of the edges beside it on its line", net.edge_in_words(v, w)),
+        what: format!(
+            "edge {} and of the edges beside it on its line",
+            net.edge_in_words(v, w)
+        ),
         rule: "doubling a knot",
     })
 }

@@ -251,6 +251,24 @@ class Mesh:
         radii: Sequence[float] = ...,
         progress: Optional[_Progress] = None,
     ) -> Dict[str, Any]: ...
+    def solve(
+        self,
+        scheme: _SchemeLike,
+        problem: str = "poisson",
+        *,
+        solution: str = "exp",
+        levels: int = 4,
+        bc: Optional[str] = None,
+        boundary: str = "open",
+        dirichlet: Optional[str] = None,
+        gauss: int = 4,
+        depth: Optional[int] = None,
+        tail: str = "drop",
+        solver: Optional[str] = None,
+        sphere: bool = False,
+        count: Optional[int] = None,
+        progress: Optional[_Progress] = None,
+    ) -> Dict[str, Any]: ...
     def render(
         self,
         scheme: _SchemeLike,
