@@ -227,8 +227,8 @@ fn what_has_no_rule_is_refused_with_the_element() {
     }
 }
 
-/// Messages are in the numbers of the file: intervals that levels have halved, vertices that faces have become,
-/// and vertices after unused ones.
+/// Messages are in the numbers of the file: intervals that levels have halved, vertices that faces have
+/// become, and vertices after unused ones.
 #[test]
 fn messages_name_what_was_given() {
     let place = place();

@@ -27,8 +27,8 @@ pub struct CharacteristicMap {
     pub jacobians: Vec<f64>,
     /// Edges of the net before all levels.
     pub lines: Vec<Vec<[f64; 2]>>,
-    /// The control net of three rings, which is the natural configuration: its points, around the limit of the
-    /// vertex at the origin, and the ends of its edges.
+    /// The control net of three rings, which is the natural configuration: its points, around the limit of
+    /// the vertex at the origin, and the ends of its edges.
     pub control: (Vec<[f64; 2]>, Vec<[u32; 2]>),
 }
 

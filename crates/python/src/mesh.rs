@@ -405,8 +405,8 @@ impl Mesh {
         Ok(values::object(py, &json)?)
     }
 
-    /// Solves a model problem on the scheme's basis functions, and measures the errors on each level: the dict
-    /// that ``eigenring iga PROBLEM --format json`` prints.
+    /// Solves a model problem on the scheme's basis functions, and measures the errors on each level: the
+    /// dict that ``eigenring iga PROBLEM --format json`` prints.
     ///
     /// ``problem`` is ``"poisson"``, ``"l2"``, ``"biharmonic"`` or ``"patch-test"``, with the ``solution``
     /// ``"sin"``, ``"exp"``, ``"mix"``, ``"lin"`` or ``"quadratic"`` of x and y; or ``"spectrum"``, the
@@ -566,7 +566,6 @@ impl Mesh {
 /// >>> found.normals[:, 2].round(12).tolist(), found.kinds
 /// ([1.0, 1.0], ['regular', 'regular'])
 #[pyclass(frozen, module = "eigenring", name = "LimitPoints")]
-#[derive(Debug)]
 pub struct Limits {
     /// float64 of shape (n, 3).
     #[pyo3(get)]

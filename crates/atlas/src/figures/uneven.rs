@@ -1,8 +1,8 @@
 //! Characteristic maps with knot intervals, where sectors differ, and their control nets, the natural
 //! configurations: a panel for each scheme.
 //!
-//! Of maps colour is the Jacobian by natural parameters, relative to its mean over the faces of the second ring; a
-//! map that is regular has no zero in it. Of NURSS the two eigenvalues mostly differ, so that faces become
+//! Of maps colour is the Jacobian by natural parameters, relative to its mean over the faces of the second
+//! ring; a map that is regular has no zero in it. Of NURSS the two eigenvalues mostly differ, so that faces become
 //! ever narrower towards the vertex.
 
 use super::blending::called;
