@@ -2,8 +2,8 @@
 //! configurations: a panel for each scheme.
 //!
 //! Of maps colour is the Jacobian by natural parameters, relative to its mean over the faces of the second
-//! ring; a map that is regular has no zero in it. Of NURSS the two eigenvalues mostly differ, so that faces become
-//! ever narrower towards the vertex.
+//! ring; a map that is regular has no zero in it. Of NURSS the two eigenvalues mostly differ, so that faces
+//! become ever narrower towards the vertex.
 
 use super::blending::called;
 use super::grid::{Grid, NARROWEST, narrowest};
