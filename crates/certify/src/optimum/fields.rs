@@ -99,7 +99,7 @@ impl Mode {
                 unit.values[a as usize][b as usize] = Number::one();
                 equation[column] = -unit.refined(SECOND[row]);
             }
-            equation[row] = equation[row] + Number::real(eigenvalue);
+            equation[row] += Number::real(eigenvalue);
             equation[4] = mode.refined(SECOND[row]);
             equation
         });
@@ -139,7 +139,7 @@ impl Mode {
         let mut sum = Number::zero();
         for (i, weight) in line(a) {
             for (j, other) in line(b) {
-                sum = sum + self.at(i, j).scale(weight * other);
+                sum += self.at(i, j).scale(weight * other);
             }
         }
         sum
@@ -168,9 +168,9 @@ fn solve(system: &mut [[Number; 5]; 4]) -> [Number; 4] {
         let pivot = (column..4).max_by(|&a, &b| size(&system[a][column]).total_cmp(&size(&system[b][column])));
         system.swap(column, pivot.unwrap_or(column));
         let head = system[column];
-        for row in column + 1..4 {
-            let factor = system[row][column] / head[column];
-            for (entry, above) in system[row].iter_mut().zip(head).skip(column) {
+        for equation in &mut system[column + 1..] {
+            let factor = equation[column] / head[column];
+            for (entry, above) in equation.iter_mut().zip(head).skip(column) {
                 *entry = *entry - factor * above;
             }
         }
@@ -204,7 +204,7 @@ fn points(plane: &[Mode; 2], saddle: &[Mode; 2], cup: &[Mode; 3]) -> Vec<Point> 
                         let mut sum = Number::zero();
                         for (a, &f) in (p - 1..).zip(&along[du]) {
                             for (b, &g) in (q - 1..).zip(&across[dv]) {
-                                sum = sum + mode.at(a, b).scale(f * g);
+                                sum += mode.at(a, b).scale(f * g);
                             }
                         }
                         sum

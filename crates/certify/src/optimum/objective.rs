@@ -290,7 +290,7 @@ impl Sample {
             let (mut l, mut p) = (Radial::zero(), Complex::<Radial>::zero());
             for ((value, second), laplacian) in jet.into_iter().zip(second).zip(laplacian) {
                 l += times(laplacian, value);
-                p = p + second.map(|part| times(part, value));
+                p += second.map(|part| times(part, value));
             }
             (l, p)
         });
