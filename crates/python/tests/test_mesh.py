@@ -9,6 +9,12 @@ CUBE = (
     [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)],
     [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]],
 )
+TURNS = np.arange(5) * (2 * np.pi / 5)
+SPOKES = np.stack([np.cos(TURNS), np.sin(TURNS), 0 * TURNS], axis=1)
+FAN = (
+    np.concatenate([np.zeros((1, 3)), SPOKES, SPOKES + np.roll(SPOKES, -1, axis=0)]),
+    [[0, 1 + k, 6 + k, 1 + (k + 1) % 5] for k in range(5)],
+)
 SQUARE = ([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
 
 
@@ -117,3 +123,36 @@ def test_bad_input_is_refused(call):
     with pytest.raises(eigenring.Error) as caught:
         call()
     assert str(caught.value)
+
+
+def timeless(found):
+    """The same without what differs from run to run, and without the name of the file."""
+    levels = [{key: value for key, value in level.items() if key != "seconds"} for level in found["levels"]]
+    return {**found, "levels": levels, "mesh": None}
+
+
+@pytest.mark.parametrize(
+    "shape, problem, arguments, options",
+    [
+        ("fan", "poisson", {"solution": "sin"}, ["--solution", "sin"]),
+        ("fan", "poisson", {"bc": "neumann", "gauss": 5}, ["--bc", "neumann", "--gauss", "5"]),
+        ("fan", "poisson", {"dirichlet": "nitsche", "solver": "cholesky"}, ["--dirichlet", "nitsche", "--solver", "cholesky"]),
+        ("fan", "l2", {"boundary": "natural", "depth": 6, "tail": "scaled"}, "--boundary natural --depth 6 --tail scaled".split()),
+        ("fan", "biharmonic", {}, []),
+        ("fan", "patch-test", {}, []),
+        ("fan", "spectrum", {"bc": "dirichlet", "count": 5}, ["--bc", "dirichlet", "--count", "5"]),
+        ("cube", "poisson", {"bc": "closed", "sphere": True}, ["--bc", "closed", "--sphere"]),
+        ("cube", "spectrum", {"bc": "closed"}, ["--bc", "closed"]),
+    ],
+)
+def test_model_problems_have_the_numbers_of_the_command(command, tmp_path, shape, problem, arguments, options):
+    path = str(tmp_path / "mesh.obj")
+    mesh = eigenring.Mesh(*(FAN if shape == "fan" else CUBE))
+    mesh.write(path)
+    printed = command("iga", problem, path, "--scheme", "catmull-clark", "--levels", "2", "--format", "json", *options)
+    found = mesh.solve("catmull-clark", problem, levels=2, **arguments)
+    assert timeless(found) == timeless(printed)
+    for wrong in ({"solver": "magic"}, {"bc": "open"}, {"levels": 0}, {"boundary": ""}, {"gauss": 99}):
+        with pytest.raises(eigenring.Error) as error:
+            mesh.solve("catmull-clark", problem, **{**arguments, **wrong})
+        assert error.value.accepted
