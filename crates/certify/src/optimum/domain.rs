@@ -6,11 +6,11 @@
 //! certainly fails there excludes the box.
 //!
 //! **The branch.** With `A, B, C, D` of [`Plane`], every admissible f3 is below C/D at N >= 5. For `C/D < f3
-//! < mu`, h is negative (`C/D < mu`, as `D - B = (1+c2)(1-sg) > 0`), which `e1 >= 0` forbids. From `f3 >= mu` on, `|f3 g3|
-//! <= m mu`, the determinant of every block, gives `g3 <= m`, so that the characteristic polynomial of the
-//! last block is at m `(m - f3)(m - g3) - h m (1 + c_K) <= 0`: one of its roots is m or above. It is m itself
-//! only if `g3 = m` and h = 0, that is at `f3 = mu`, where `g3 = lambda`, or at `f3 = lambda`, which is then
-//! the other root. At `f3 = C/D` there is no stencil.
+//! < mu`, h is negative (`C/D < mu`, as `D - B = (1+c2)(1-sg) > 0`), which `e1 >= 0` forbids. From `f3 >= mu`
+//! on, `|f3 g3| <= m mu`, the determinant of every block, gives `g3 <= m`, so that the characteristic
+//! polynomial of the last block is at m `(m - f3)(m - g3) - h m (1 + c_K) <= 0`: one of its roots is m or
+//! above. It is m itself only if `g3 = m` and h = 0, that is at `f3 = mu`, where `g3 = lambda`, or at `f3 =
+//! lambda`, which is then the other root. At `f3 = C/D` there is no stencil.
 
 use super::objective::{edge_weight, planar};
 use crate::{Centred, Enclose, Interval};
@@ -37,8 +37,8 @@ impl Domain {
         // g3 = mu (a - b f3)/(c - d f3) >= -largest, below the pole
         let last_block = (largest * c + mu * a) / (largest * d + mu * b);
         let mut end = last_block.hi().min((c / d).hi());
-        // (C - D f3) d2 is a quadratic that opens upwards; where it is negative at C/D, only f3 up to its smaller
-        // root are left
+        // (C - D f3) d2 is a quadratic that opens upwards; where it is negative at C/D, only f3 up to its
+        // smaller root are left
         let (square, linear) = (one - sg, lambda * (one + b * sg - sg.square()));
         let constant = sg * lambda.square() * (c1 * sg - c2);
         let pole = c / d;

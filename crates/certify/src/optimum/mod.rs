@@ -9,16 +9,17 @@
 //!
 //! # The statement
 //!
-//! For the doubles N, lambda, s, f2 and f3 taken as exact numbers, and the objective E of Ma, Wang and Ma (2023,
-//! Eqs. 11 to 20) in the normalisation of the paper with Gauss's rule of 5 by 5 points: **every admissible
-//! stencil has `E >= (1 - epsilon) E(f2, f3)`**. Admissible are the paper's bounds, with a relative margin to
-//! the bounds of eigenvalues (see [`Constraint`](eigenring_scheme::lambda::Constraint)), so long as the
-//! natural configuration folds at no point of the quadrature: E has no value otherwise. It is a statement on
-//! the sum that is minimised, not on the integral that the sum stands for.
+//! For the doubles N, lambda, s, f2 and f3 taken as exact numbers, and the objective E of Ma, Wang and Ma
+//! (2023, Eqs. 11 to 20) in the normalisation of the paper with Gauss's rule of 5 by 5 points: **every
+//! admissible stencil has `E >= (1 - epsilon) E(f2, f3)`**. Admissible are the paper's bounds, with a
+//! relative margin to the bounds of eigenvalues (see [`Constraint`](eigenring_scheme::lambda::Constraint)),
+//! so long as the natural configuration folds at no point of the quadrature: E has no value otherwise. It is
+//! a statement on the sum that is minimised, not on the integral that the sum stands for.
 //!
 //! Values over a box are [`Centred`] forms in the corner radius and f3. Their overestimation falls with the
-//! square of the box, so that boxes around a minimum need not be much smaller than the square root of epsilon.
-//! Where the minimum lies on a bound, the bound is a side of the rectangle that is covered (see `domain.rs`).
+//! square of the box, so that boxes around a minimum need not be much smaller than the square root of
+//! epsilon. Where the minimum lies on a bound, the bound is a side of the rectangle that is covered (see
+//! `domain.rs`).
 //!
 //! ```
 //! use eigenring_certify::Status;
@@ -144,7 +145,8 @@ impl Problem {
         })
     }
 
-    /// An enclosure of the objective of one stencil: entirely unknown where the natural configuration may fold.
+    /// An enclosure of the objective of one stencil: entirely unknown where the natural configuration may
+    /// fold.
     pub fn value(&self, [f2, f3]: [f64; 2]) -> Interval {
         let [f2, f3] = [f2, f3].map(Interval::point);
         let radius = self.objective.plane.corner_radius(f2, f3);
@@ -305,7 +307,8 @@ impl Problem {
 enum Bound {
     /// None is admissible, or none has an objective.
     Excluded,
-    /// The objective is nowhere below `least` and at the centre not above `central`; `direction` is to be cut.
+    /// The objective is nowhere below `least` and at the centre not above `central`; `direction` is to be
+    /// cut.
     Known { least: f64, central: f64, direction: usize },
     /// Nothing.
     Unknown,

@@ -7,9 +7,9 @@
 //! L = 4 u_zeta zetabar        P = 2 u_zeta zeta        Q = 2 u_zetabar zetabar
 //! ```
 //!
-//! In the sector turned by phi, where u is `exp(2 i phi)` times as large, `L^2` and Q are turned by `t = exp(4
-//! i phi)` and P stays. With `h = z_xx`, `z_xy`, `z_yy` and fitted values a, b, c the series over the annuli
-//! is, for each h, `(a - rho h)^2 + kappa h^2` with `p = lambda^2` and
+//! In the sector turned by phi, where u is `exp(2 i phi)` times as large, `L^2` and Q are turned by `t =
+//! exp(4 i phi)` and P stays. With `h = z_xx`, `z_xy`, `z_yy` and fitted values a, b, c the series over the
+//! annuli is, for each h, `(a - rho h)^2 + kappa h^2` with `p = lambda^2` and
 //!
 //! ```text
 //! rho = (1-p)/(1 - p s)        kappa = p (1-p) (s-1)^2 / ((1 - p s^2) (1 - p s)^2)

@@ -22,18 +22,25 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Regenerate every coefficient table of the lambda-scheme from nothing, or the eigenvalue tables of the
-/// tension scheme. For each valence: tunes the stencils at 100 lambdas, finds the globally optimal lambda,
-/// fits the spline stencils, and writes OUT/lambda/: the paper's tables and the samples as CSV, and
-/// tables.json with everything at full precision. An interrupted run resumes when the same command is given
-/// again. With --scheme tension: OUT/tension/ gets the leading eigenvalues of all local matrices of orders 3
-/// to 22, five initial tensions and levels 1 to 10, the smallest gaps among them, the exceptions, the paper's
-/// Table 2 and characteristic meshes. Knots, tuning and --embed belong to the lambda-scheme alone. With
-/// --scheme surfaces or tension-surfaces: OUT/surfaces/ or OUT/tension-surfaces/ gets pictures of limit
-/// surfaces like those of the papers, with tables of curvature and of the spectra of features. With --scheme
-/// nonuniform: OUT/nonuniform/ gets the maxima of blending functions, where eigen-polyhedra exist, the gaps
-/// of Lemma 1 on HNUSS, and reflection lines. With --study: OUT/studies/ gets what is shown of the
-/// lambda-scheme beyond the papers' tables. optimality: that no admissible stencil at lambda_C* is better
-/// than the tuned one, for valences 5 to 20, with the weight and without, by interval branch and bound.
+/// tension scheme.
+///
+/// For each valence: tunes the stencils at 100 lambdas, finds the globally optimal lambda, fits the spline
+/// stencils, and writes OUT/lambda/: the paper's tables and the samples as CSV, and tables.json with
+/// everything at full precision. An interrupted run resumes when the same command is given again.
+///
+/// With --scheme tension: OUT/tension/ gets the leading eigenvalues of all local matrices of orders 3 to 22,
+/// five initial tensions and levels 1 to 10, the smallest gaps among them, the exceptions, the paper's Table
+/// 2 and characteristic meshes. Knots, tuning and --embed belong to the lambda-scheme alone.
+///
+/// With --scheme surfaces or tension-surfaces: OUT/surfaces/ or OUT/tension-surfaces/ gets pictures of limit
+/// surfaces like those of the papers, with tables of curvature and of the spectra of features.
+///
+/// With --scheme nonuniform: OUT/nonuniform/ gets the maxima of blending functions, where eigen-polyhedra
+/// exist, the gaps of Lemma 1 on HNUSS, and reflection lines.
+///
+/// With --study: OUT/studies/ gets what is shown of the lambda-scheme beyond the papers' tables. optimality:
+/// that no admissible stencil at lambda_C* is better than the tuned one, for valences 5 to 20, with the
+/// weight and without, by interval branch and bound.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  eigenring tables                         all of results/lambda, valences 3 to 20\n  eigenring tables --valences 5,6          two valences, below eigenring-out\n  eigenring tables --starts full --format latex\n  eigenring tables --scheme tension        all of results/tension"
@@ -47,8 +54,8 @@ pub struct Arguments {
     study: Option<StudyArg>,
     #[command(flatten)]
     valences: OptionalValences,
-    /// Output folder; files go to its subfolder lambda, tension or studies. By default results, or eigenring-out with
-    /// --valences or any option that changes the numbers
+    /// Output folder; files go to its subfolder lambda, tension or studies. By default results, or
+    /// eigenring-out with --valences or any option that changes the numbers
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
     /// Triple knots: detected from the samples, or those of the paper's Table 1
