@@ -17,50 +17,42 @@
 /// normal double with room for the 53 further bits of the residual.
 const RESIDUAL_SAFE: f64 = f64::MIN_POSITIVE * 9_007_199_254_740_992.0;
 
-/// Which side of the rounded result the true one is on.
-#[derive(Clone, Copy)]
-enum Error {
-    None,
-    Below,
-    Above,
-    Unknown,
-}
-
-impl Error {
-    /// The sign of a residual; `trusted` says whether a zero residual proves exactness.
-    fn of(residual: f64, trusted: bool) -> Self {
-        if residual > 0.0 {
-            Error::Above
-        } else if residual < 0.0 {
-            Error::Below
-        } else if residual == 0.0 && trusted {
-            Error::None
-        } else {
-            Error::Unknown
-        }
+/// Bounds of a true result from the rounded one and the sign of `true - rounded`; `trusted` says whether a
+/// zero residual proves exactness, and a residual that is not a number proves nothing. An overflow of finite
+/// operands leaves the largest double on the inside.
+///
+/// Signs of residuals are as good as random, so that the bounds are chosen without branches.
+#[inline(always)]
+fn bounds(rounded: f64, residual: f64, trusted: bool) -> (f64, f64) {
+    let exact = residual == 0.0 && trusted;
+    let below = !(residual > 0.0 || exact);
+    let above = !(residual < 0.0 || exact);
+    if rounded == 0.0 || rounded.is_infinite() {
+        return at_an_end(rounded, below, above);
     }
+    // doubles of one sign are ordered like their bits
+    let bits = rounded.to_bits() as i64;
+    let outwards = (bits >> 63) | 1;
+    let moved = |by: i64| f64::from_bits((bits + by) as u64);
+    (moved(-outwards * i64::from(below)), moved(outwards * i64::from(above)))
 }
 
-/// Bounds of a true result from the rounded one. An overflow of finite operands leaves the largest double on
-/// the inside.
-fn bounds(rounded: f64, error: Error) -> (f64, f64) {
-    // a negative zero would be a second representation of the same bound
-    let rounded = rounded + 0.0;
+/// [`bounds`] of zero, whose neighbours are of both signs, and of what overflowed.
+#[cold]
+fn at_an_end(rounded: f64, below: bool, above: bool) -> (f64, f64) {
     if rounded == f64::INFINITY {
         return (f64::MAX, f64::INFINITY);
     }
     if rounded == f64::NEG_INFINITY {
         return (f64::NEG_INFINITY, f64::MIN);
     }
-    match error {
-        Error::None => (rounded, rounded),
-        Error::Below => (rounded.next_down(), rounded),
-        Error::Above => (rounded, rounded.next_up()),
-        Error::Unknown => (rounded.next_down(), rounded.next_up()),
-    }
+    let tiny = f64::from_bits(1);
+    // a negative zero would be a second representation of the same bound
+    (if below { -tiny } else { 0.0 }, if above { tiny } else { 0.0 })
 }
 
 /// Bounds of `a + b`. Infinite operands must not be opposite.
+#[inline(always)]
 pub(super) fn sum(a: f64, b: f64) -> (f64, f64) {
     let rounded = a + b;
     if !(a.is_finite() && b.is_finite()) {
@@ -68,10 +60,11 @@ pub(super) fn sum(a: f64, b: f64) -> (f64, f64) {
     }
     let from_b = rounded - a;
     let residual = (a - (rounded - from_b)) + (b - from_b);
-    bounds(rounded, Error::of(residual, true))
+    bounds(rounded, residual, true)
 }
 
 /// Bounds of `a * b`.
+#[inline(always)]
 pub(super) fn product(a: f64, b: f64) -> (f64, f64) {
     if a == 0.0 || b == 0.0 {
         return (0.0, 0.0);
@@ -91,7 +84,7 @@ pub(super) fn product(a: f64, b: f64) -> (f64, f64) {
     }
     let residual = a.mul_add(b, -rounded);
     let trusted = rounded.abs() >= RESIDUAL_SAFE || a.abs() == 1.0 || b.abs() == 1.0;
-    bounds(rounded, Error::of(residual, trusted))
+    bounds(rounded, residual, trusted)
 }
 
 /// Bounds of `a / b` for a finite or infinite `a` and a `b` that is not zero.
@@ -111,7 +104,7 @@ pub(super) fn quotient(a: f64, b: f64) -> (f64, f64) {
     let residual = (-rounded).mul_add(b, a);
     let signed = if b < 0.0 { -residual } else { residual };
     let trusted = a.abs() >= RESIDUAL_SAFE && rounded.abs() >= f64::MIN_POSITIVE || b.abs() == 1.0;
-    bounds(rounded, Error::of(signed, trusted))
+    bounds(rounded, signed, trusted)
 }
 
 /// Bounds of the square root of `a >= 0`.
@@ -121,6 +114,6 @@ pub(super) fn root(a: f64) -> (f64, f64) {
     }
     let rounded = a.sqrt();
     let residual = (-rounded).mul_add(rounded, a);
-    let (below, above) = bounds(rounded, Error::of(residual, a >= RESIDUAL_SAFE));
+    let (below, above) = bounds(rounded, residual, a >= RESIDUAL_SAFE);
     (below.max(0.0), above)
 }
