@@ -72,6 +72,12 @@ pub(crate) fn points_of(space: &Space, table: &Table, face: usize) -> (Vec<u32>,
     (points, positions)
 }
 
+/// The error of a cell whose map is not regular.
+fn refused(space: &Space, cell: usize, value: f64) -> Error {
+    let face = space.cells[cell].face as usize;
+    Error::Jacobian { face, value }
+}
+
 /// Matrices and load of one face over its footprint, whose places they follow.
 struct Local {
     footprint: Footprint,
@@ -90,7 +96,7 @@ fn local(space: &Space, tables: &Tables, face: usize, forms: &[Form], load: Opti
     for (q, &weight) in table.weights.iter().enumerate() {
         let jets = table.at(q);
         let at = Geometry::new(jets, &positions, weight, space.planar, second)
-            .map_err(|value| Error::Jacobian { face, value })?;
+            .map_err(|value| refused(space, face, value))?;
         if let Some(load) = load {
             let f = load(&at) * at.measure;
             right.iter_mut().zip(jets).for_each(|(sum, jet)| *sum += f * jet[0]);
@@ -230,7 +236,7 @@ pub(crate) fn loads(space: &Space, tables: &Tables, f: &Load<'_>) -> Result<Vec<
         for (q, &weight) in table.weights.iter().enumerate() {
             let jets = table.at(q);
             let at = Geometry::new(jets, &positions, weight, space.planar, !space.planar)
-                .map_err(|value| Error::Jacobian { face, value })?;
+                .map_err(|value| refused(space, face, value))?;
             let value = f(&at) * at.measure;
             sums.iter_mut().zip(jets).for_each(|(sum, jet)| *sum += value * jet[0]);
         }

@@ -3,9 +3,9 @@
 use crate::Error;
 use crate::assembly::add;
 use crate::solution::Solution;
-use crate::space::Space;
+use crate::space::{Edge, Space};
 use crate::sparse::{Numbering, Sparse};
-use crate::tables::{bicubic, line_rule};
+use crate::tables::{bicubic, line_rule, with_intervals};
 use std::collections::BTreeMap;
 
 /// The factor of Nitsche's penalty: above the constant of the inverse inequality of cubics, and the errors do
@@ -31,17 +31,20 @@ struct Sample {
 /// clockwise.
 fn samples(space: &Space) -> impl Iterator<Item = Sample> + '_ {
     let rule = line_rule(POINTS);
-    space.edges.iter().flat_map(move |grid| {
-        let of = |&(s, weight): &(f64, f64)| sample(space, grid, s, weight);
+    space.edges.iter().flat_map(move |edge| {
+        let of = |&(s, weight): &(f64, f64)| sample(space, edge, s, weight);
         rule.iter().map(of).collect::<Vec<_>>()
     })
 }
 
-fn sample(space: &Space, grid: &[u32; 16], s: f64, weight: f64) -> Sample {
-    let jets = bicubic(s, 0.0);
+fn sample(space: &Space, edge: &Edge, s: f64, weight: f64) -> Sample {
+    let jets = match edge.intervals {
+        None => bicubic(s, 0.0),
+        Some(intervals) => with_intervals(intervals, s, 0.0),
+    };
     let mut x = [[0.0; 3]; 2];
     let mut rows: BTreeMap<u32, [f64; 3]> = BTreeMap::new();
-    for (jet, &v) in jets.iter().zip(grid) {
+    for (jet, &v) in jets.iter().zip(&edge.points) {
         for (sums, coordinate) in x.iter_mut().zip(space.positions[v as usize]) {
             sums.iter_mut().zip(jet).for_each(|(sum, j)| *sum += coordinate * j);
         }

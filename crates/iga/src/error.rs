@@ -12,6 +12,9 @@ pub enum Error {
     /// Of the local matrix.
     #[error(transparent)]
     Spectral(#[from] eigenring_spectral::Error),
+    /// Of knot intervals and hybrid nets.
+    #[error(transparent)]
+    Intervals(#[from] eigenring_nonuniform::Error),
     /// A scheme that is no bicubic one-ring scheme.
     #[error(
         "'{0}' has no finite elements here: accepted are stationary bicubic schemes around vertices with one-ring rules, and the regular rule at valence 4"

@@ -10,6 +10,7 @@ mod boundary;
 mod eigen;
 mod error;
 mod geometry;
+mod hybrid;
 mod multigrid;
 mod nested;
 mod norms;

@@ -4,7 +4,7 @@ use crate::Error;
 use crate::assembly::{Tables, points_of};
 use crate::geometry::Geometry;
 use crate::solution::Solution;
-use crate::space::{Kind, Space};
+use crate::space::Space;
 use rayon::prelude::*;
 
 /// Norms of a function over the domain: seminorms of first and second order.
@@ -24,16 +24,18 @@ pub struct Norms {
 type Sums = [[f64; 4]; 2];
 
 fn face_sums(space: &Space, tables: &Tables, face: usize, c: &[f64], u: &Solution) -> Result<Sums, Error> {
-    let kind = space.cells[face].kind;
-    let table = &tables[&kind];
+    let cell = &space.cells[face];
+    let table = &tables[&cell.kind];
     let (points, positions) = points_of(space, table, face);
     let mut sums = [[0.0; 4]; 2];
     // derivatives do not see a constant, and lose fewer digits without it
     let base = c[points[0] as usize];
     for (q, &weight) in table.weights.iter().enumerate() {
         let jets = table.at(q);
-        let at = Geometry::new(jets, &positions, weight, space.planar, true)
-            .map_err(|value| Error::Jacobian { face, value })?;
+        let at = Geometry::new(jets, &positions, weight, space.planar, true).map_err(|value| Error::Jacobian {
+            face: cell.face as usize,
+            value,
+        })?;
         let mut v = [0.0; 6];
         for (jet, &point) in jets.iter().zip(&points) {
             let value = c[point as usize] - base;
@@ -53,11 +55,9 @@ fn face_sums(space: &Space, tables: &Tables, face: usize, c: &[f64], u: &Solutio
             sum[3] = f64::max(sum[3], value.abs());
         }
     }
-    if let Kind::Irregular(n) = kind {
-        let limit = &space.around[&n].limit;
-        let points = &space.cells[face].points;
+    if let Some(limit) = &table.limit {
         let at =
-            |of: &dyn Fn(usize) -> f64| -> f64 { limit.iter().zip(points).map(|(l, &p)| l * of(p as usize)).sum() };
+            |of: &dyn Fn(usize) -> f64| -> f64 { limit.iter().zip(&points).map(|(l, &p)| l * of(p as usize)).sum() };
         let [x, y] = [0, 1].map(|axis| at(&|p| space.positions[p][axis]));
         let exact = u(x, y).value;
         sums[0][3] = sums[0][3].max((exact - at(&|p| c[p])).abs());

@@ -5,7 +5,7 @@ use crate::geometry::Geometry;
 use crate::multigrid::Multigrid;
 use crate::norms::{Norms, errors};
 use crate::solution::Solution;
-use crate::space::{Ends, Space};
+use crate::space::{Depth, Ends, Space};
 use crate::sparse::{Numbering, Sparse};
 use crate::tables::Around;
 use crate::{Error, MOST_ANNULI, boundary};
@@ -141,13 +141,23 @@ pub(crate) fn tables(space: &Space, options: &Options, plate: bool) -> Result<Ta
             annuli: MOST_ANNULI,
         });
     }
-    let depth = |around: &Around| options.depth.or(own(around)).unwrap_or(MOST_ANNULI);
-    Ok(space.tables(options.gauss, &depth, options.scaled))
+    if plate && space.elements.iter().any(|element| !element.is_regular()) {
+        return Err(Error::Combination {
+            what: "a clamped plate in a space of HNUSS with extraordinary vertices",
+            accepted: "poisson, l2 and patch-test",
+        });
+    }
+    let depth = match options.depth {
+        Some(depth) => Depth::Given(depth),
+        None if plate => Depth::Energy,
+        None => Depth::Area,
+    };
+    Ok(space.tables(options.gauss, depth, options.scaled))
 }
 
 /// Tables by which errors are measured.
 fn measure(space: &Space) -> Tables {
-    space.tables(6, &Around::depth, false)
+    space.tables(6, Depth::Area, false)
 }
 
 fn right_hand_side(problem: Problem, u: &Solution, at: &Geometry) -> f64 {

@@ -7,7 +7,8 @@
 //! spline of the ghosts' b alone.
 
 use crate::Error;
-use crate::tables::{Around, Table, far};
+use crate::tables::{Around, Table, element, far};
+use eigenring_nonuniform::{Element, grid};
 use eigenring_scheme::{Fan, Lattice, Numbering};
 use eigenring_surface::{Mesh, Point3, Rules, Topology};
 use std::collections::btree_map::Entry;
@@ -25,6 +26,8 @@ pub enum Ends {
 /// A face with its control points, in the order of its kind's table.
 #[derive(Debug)]
 pub(crate) struct Cell {
+    /// The number of the face in the mesh of the level.
+    pub face: u32,
     pub kind: Kind,
     /// The table's numbering of control points, as points of the mesh with ghosts.
     pub points: Vec<u32>,
@@ -35,6 +38,27 @@ pub(crate) enum Kind {
     Far,
     Near(usize, [i32; 2]),
     Irregular(usize),
+    /// With knot intervals: an element of the space's list.
+    Element(usize),
+}
+
+/// How deep the annuli of an extraordinary vertex go.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Depth {
+    /// Until the rest of the area is rounding.
+    Area,
+    /// Until the rest of the energy of second derivatives is small.
+    Energy,
+    /// As wanted.
+    Given(usize),
+}
+
+/// A boundary edge with the 16 points around its face: it runs from (0, 0) to (1, 0), the face above.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Edge {
+    pub points: [u32; 16],
+    /// Knot intervals along and across; `None` for equal ones.
+    pub intervals: Option<[[f64; 5]; 2]>,
 }
 
 /// One level of a space.
@@ -55,16 +79,16 @@ pub(crate) struct Space {
     pub inverse: Vec<Vec<(u32, f64)>>,
     /// The ghosts of boundary vertices.
     pub layers: Vec<(u32, Corner)>,
-    /// The grid of 16 points of each boundary edge: from (0, 0) to (1, 0), the face above.
-    pub edges: Vec<[u32; 16]>,
+    pub edges: Vec<Edge>,
     pub around: BTreeMap<usize, Around>,
+    pub elements: Vec<Element>,
 }
 
 /// The mesh with its ghosts.
 pub(crate) fn extended(mesh: &Mesh, topology: &Topology) -> Result<(Mesh, Vec<(u32, Corner)>), Error> {
     let mut points = mesh.points().to_vec();
     let mut layers = Vec::new();
-    let mut corners = mesh.corners().to_vec();
+    let mut corners = Vec::new();
     let extrapolated = |a: Point3<f64>, b: Point3<f64>| a + (a - b);
     let mut beyond: HashMap<u32, [u32; 2]> = HashMap::new();
     for v in 0..topology.vertex_count() as u32 {
@@ -101,7 +125,14 @@ pub(crate) fn extended(mesh: &Mesh, topology: &Topology) -> Result<(Mesh, Vec<(u
         let [a, b] = topology.ends(half);
         corners.extend([a, beyond[&a][0], beyond[&b][1], b]);
     }
-    Ok((Mesh::of_quads(points, corners), layers))
+    if mesh.is_quads() {
+        return Ok((Mesh::of_quads(points, [mesh.corners(), &corners].concat()), layers));
+    }
+    let mut full = Mesh::of_points(points);
+    for face in mesh.faces().chain(corners.chunks(4)) {
+        full.push_face(face)?;
+    }
+    Ok((full, layers))
 }
 
 /// The ghosts of a boundary vertex, and what they depend on.
@@ -113,20 +144,28 @@ pub(crate) enum Corner {
     Two([u32; 3], [u32; 3]),
 }
 
-/// Control points -1, 0, 1 across the boundary in unknowns -1, 0, 1.
-fn across(ends: Ends) -> [[f64; 3]; 3] {
+/// What equal intervals have for [`across`].
+pub(crate) const EQUAL: f64 = 2.0;
+
+/// Control points -1, 0, 1 across the boundary in unknowns -1, 0, 1. With the intervals d and e of the first two
+/// faces inside, which the ghosts mirror, `r = (d + e)/d`: control points are the values of the polar form at
+/// `(-d-e, -d, 0)`, `(-d, 0, d)`, `(0, d, d+e)`, unknowns those at `(0, 0, 0)`, `(0, 0, d)` and the same last.
+fn across(ends: Ends, r: f64) -> [[f64; 3]; 3] {
     match ends {
-        Ends::Open => [[6.0, -6.0, 1.0], [0.0, 1.5, -0.5], [0.0, 0.0, 1.0]],
+        Ends::Open => {
+            let twice = 2.0 * (1.0 + r);
+            [[twice, -twice, 1.0], [0.0, 1.0 + 1.0 / r, -1.0 / r], [0.0, 0.0, 1.0]]
+        }
         Ends::Natural => [[0.0, 2.0, -1.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
     }
 }
 
 /// The inverse of [`across`]; natural ends have no unknowns beyond the boundary.
-fn back_across(ends: Ends) -> [[f64; 3]; 3] {
+fn back_across(ends: Ends, r: f64) -> [[f64; 3]; 3] {
     match ends {
         Ends::Open => [
-            [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0],
-            [0.0, 2.0 / 3.0, 1.0 / 3.0],
+            [0.5 / (r + 1.0), r / (r + 1.0), 0.5 / (r + 1.0)],
+            [0.0, r / (r + 1.0), 1.0 / (r + 1.0)],
             [0.0, 0.0, 1.0],
         ],
         Ends::Natural => [[0.0; 3], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
@@ -134,8 +173,13 @@ fn back_across(ends: Ends) -> [[f64; 3]; 3] {
 }
 
 /// Coefficients in unknowns by the relation across the boundary, or the other way round; `None` where two
-/// corners of the domain are neighbours.
-fn transform(count: usize, layers: &[(u32, Corner)], line: [[f64; 3]; 3]) -> Option<Vec<Vec<(u32, f64)>>> {
+/// corners of the domain are neighbours. `line` is the relation at a vertex towards each of its inner
+/// neighbours.
+fn transform(
+    count: usize,
+    layers: &[(u32, Corner)],
+    line: impl Fn(u32, usize) -> [[f64; 3]; 3],
+) -> Option<Vec<Vec<(u32, f64)>>> {
     let mut rows: Vec<Vec<(u32, f64)>> = (0..count as u32).map(|i| vec![(i, 1.0)]).collect();
     let kept = |row: Vec<(u32, f64)>| row.into_iter().filter(|(_, w)| *w != 0.0).collect();
     let single = |(v, corner): &(u32, Corner)| match corner {
@@ -146,7 +190,7 @@ fn transform(count: usize, layers: &[(u32, Corner)], line: [[f64; 3]; 3]) -> Opt
     for (v, corner) in layers {
         match corner {
             Corner::One(inside, ghost) => {
-                let ids = [*ghost, *v, *inside];
+                let (ids, line) = ([*ghost, *v, *inside], line(*v, 0));
                 for i in 0..2 {
                     rows[ids[i] as usize] = kept((0..3).map(|k| (ids[k], line[i][k])).collect());
                 }
@@ -155,8 +199,9 @@ fn transform(count: usize, layers: &[(u32, Corner)], line: [[f64; 3]; 3]) -> Opt
                 // ids[i][j] is the point (i - 1, j - 1)
                 let (under, beside) = (*ghosts.get(a)?, *ghosts.get(b)?);
                 let ids = [[*both, *west, beside], [*south, *v, *b], [under, *a, *diagonal]];
+                let [first, second] = [0, 1].map(|direction| line(*v, direction));
                 for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                    let terms = (0..9).map(|k| (ids[k / 3][k % 3], line[i][k / 3] * line[j][k % 3]));
+                    let terms = (0..9).map(|k| (ids[k / 3][k % 3], first[i][k / 3] * second[j][k % 3]));
                     rows[ids[i][j] as usize] = kept(terms.collect());
                 }
             }
@@ -165,29 +210,17 @@ fn transform(count: usize, layers: &[(u32, Corner)], line: [[f64; 3]; 3]) -> Opt
     Some(rows)
 }
 
-/// The 16 points around the face of a half-edge, which runs from (0, 0) to (1, 0). All corners are regular.
-fn grid(topology: &Topology, half: u32) -> Option<[u32; 16]> {
-    let mut points = [0; 16];
-    let mut half = half;
-    let (mut at, mut d) = ([0_i32, 0], [1_i32, 0]);
-    for _ in 0..4 {
-        let e = [-d[1], d[0]];
-        let west = topology.turned(topology.turned(half)?)?;
-        let south = topology.turned(west)?;
-        let mut set = |x: i32, y: i32, v: u32| points[(4 * (y + 1) + x + 1) as usize] = v;
-        set(at[0], at[1], topology.origin(half));
-        set(at[0] - d[0], at[1] - d[1], topology.head(west));
-        set(
-            at[0] - d[0] - e[0],
-            at[1] - d[1] - e[1],
-            topology.head(topology.next(west)),
-        );
-        set(at[0] - e[0], at[1] - e[1], topology.head(south));
-        at = [at[0] + d[0], at[1] + d[1]];
-        d = e;
-        half = topology.next(half);
-    }
-    Some(points)
+/// Coefficients in unknowns and unknowns in coefficients, see [`transform`]. `ratio` is that of [`across`] at a
+/// vertex towards each of its inner neighbours.
+pub(crate) fn transforms(
+    count: usize,
+    layers: &[(u32, Corner)],
+    ends: Ends,
+    ratio: impl Fn(u32, usize) -> f64,
+) -> Option<[Vec<Vec<(u32, f64)>>; 2]> {
+    let forth = transform(count, layers, |v, direction| across(ends, ratio(v, direction)))?;
+    let back = transform(count, layers, |v, direction| back_across(ends, ratio(v, direction)))?;
+    Some([forth, back])
 }
 
 /// The points of some rings around a vertex, sector 0 at a spoke.
@@ -256,6 +289,7 @@ impl Space {
                     return Ok(None);
                 }
                 cells.push(Cell {
+                    face,
                     kind: Kind::Irregular(n),
                     points,
                 });
@@ -273,6 +307,7 @@ impl Space {
             let count = grids[0].iter().filter(|&&v| special(v)).count();
             if !tuned || count == 0 {
                 cells.push(Cell {
+                    face,
                     kind: Kind::Far,
                     points: grids[0].to_vec(),
                 });
@@ -289,17 +324,22 @@ impl Space {
                 return Ok(None);
             };
             cells.push(Cell {
+                face,
                 kind: Kind::Near(valence[v as usize], at),
                 points: grid.to_vec(),
             });
         }
-        let edges: Option<Vec<[u32; 16]>> = (0..coarse.half_count() as u32)
+        let edges: Option<Vec<Edge>> = (0..coarse.half_count() as u32)
             .filter(|&half| coarse.twin(half).is_none())
-            .map(|half| grid(&topology, half))
+            .map(|half| {
+                Some(Edge {
+                    points: grid(&topology, half)?,
+                    intervals: None,
+                })
+            })
             .collect();
-        let [transform, inverse] =
-            [across(ends), back_across(ends)].map(|line| transform(full.points().len(), &layers, line));
-        let (Some(edges), Some(transform), Some(inverse)) = (edges, transform, inverse) else {
+        let transforms = transforms(full.points().len(), &layers, ends, |_, _| EQUAL);
+        let (Some(edges), Some([transform, inverse])) = (edges, transforms) else {
             return Ok(None);
         };
         let planar = full.points().iter().all(|p| p.z == 0.0);
@@ -314,11 +354,21 @@ impl Space {
             layers,
             edges,
             around,
+            elements: Vec::new(),
         }))
     }
 
-    /// The tables of all kinds of faces; `depth` is that of an extraordinary vertex.
-    pub fn tables(&self, order: usize, depth: &dyn Fn(&Around) -> usize, scaled: bool) -> BTreeMap<Kind, Table> {
+    /// The tables of all kinds of faces; `scaled` tells whether the last annulus stands for those that follow.
+    pub fn tables(&self, order: usize, depth: Depth, scaled: bool) -> BTreeMap<Kind, Table> {
+        let of = |around: &Around| match depth {
+            Depth::Area => around.depth(),
+            Depth::Energy => around.plate_depth().unwrap_or(crate::MOST_ANNULI),
+            Depth::Given(depth) => depth,
+        };
+        let with_intervals = match depth {
+            Depth::Given(depth) => depth,
+            _ => crate::hybrid::DEPTH,
+        };
         let mut tables = BTreeMap::new();
         for cell in &self.cells {
             tables.entry(cell.kind).or_insert_with(|| match cell.kind {
@@ -326,8 +376,9 @@ impl Space {
                 Kind::Near(n, at) => self.around[&n].near(order, at),
                 Kind::Irregular(n) => {
                     let around = &self.around[&n];
-                    around.irregular(order, depth(around), scaled)
+                    around.irregular(order, of(around), scaled)
                 }
+                Kind::Element(k) => element(&self.elements[k], order, with_intervals, scaled),
             });
         }
         tables

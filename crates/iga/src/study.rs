@@ -6,10 +6,13 @@ use crate::nested::embedding;
 use crate::problem::{Options, Outcome, Problem, Solver, default_solver, run, tables};
 use crate::solution::Solution;
 use crate::space::{Ends, Space};
+use crate::sparse::Sparse;
 use crate::spectrum::{Membrane, Spectrum, spectrum};
-use crate::{Error, MOST_ANNULI, predicted};
+use crate::{Error, MOST_ANNULI, hybrid, predicted};
+use eigenring_nonuniform::{FirstLevel, Outside, Refinement, Scheme};
 use eigenring_scheme::{Definition, Spec};
 use eigenring_surface::{Boundary, Mesh, Refiner, Rules};
+use std::collections::BTreeSet;
 
 /// What a mesh is the control mesh of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,13 +25,21 @@ pub enum Domain {
     Sphere,
 }
 
+/// What makes the levels.
+#[derive(Debug)]
+enum Levels<'a> {
+    /// A scheme, and whether its rules beside extraordinary vertices differ from the regular ones.
+    Uniform(&'a Rules, bool),
+    /// HNUSS, from its hybrid net on.
+    Hybrid(Box<Refinement>),
+}
+
 /// A mesh whose levels carry spaces.
 #[derive(Debug)]
 pub struct Study<'a> {
-    rules: &'a Rules,
+    levels: Levels<'a>,
     mesh: Mesh,
     domain: Domain,
-    tuned: bool,
     /// Catmull-Clark steps that separated extraordinary vertices from each other and from the boundary.
     pub steps: usize,
     /// The subdominant eigenvalues of the valences in the mesh other than 4.
@@ -61,30 +72,17 @@ impl<'a> Study<'a> {
                 });
             }
         }
-        for (vertex, p) in mesh.points().iter().enumerate() {
-            let position = [p.x, p.y, p.z];
-            if !position.iter().all(|c| c.is_finite()) {
-                return Err(Error::NotFinite { vertex, position });
-            }
-            if domain == Domain::Planar && p.z != 0.0 {
-                return Err(Error::NotPlanar { vertex, position });
-            }
-        }
+        check_points(mesh, domain)?;
         let steps = Rules::new(Definition::Family(Spec::CatmullClark));
         let mut mesh = mesh.without_unused();
         for step in 0..=MOST_STEPS {
             if let Some(space) = Space::new(&mesh, rules, Ends::Open, tuned)? {
-                match (domain, space.edges.is_empty()) {
-                    (Domain::Planar, true) => return Err(Error::Closed),
-                    (Domain::Closed | Domain::Sphere, false) => return Err(Error::Open),
-                    _ => {}
-                }
+                check_domain(&space, domain)?;
                 let lambdas = space.around.iter().map(|(&n, around)| (n, around.lambda)).collect();
                 return Ok(Study {
-                    rules,
+                    levels: Levels::Uniform(rules, tuned),
                     mesh,
                     domain,
-                    tuned,
                     steps: step,
                     lambdas,
                 });
@@ -94,29 +92,113 @@ impl<'a> Study<'a> {
         Err(Error::TooClose { steps: MOST_STEPS })
     }
 
-    /// The control meshes of the levels up to one.
-    fn meshes(&self, level: usize) -> Result<Vec<Mesh>, Error> {
-        let mut meshes = vec![self.mesh.clone()];
-        for _ in 0..level {
-            meshes.push(refined(meshes.last().expect("one is there"), self.rules, 1)?);
+    /// A mesh with knot intervals under HNUSS: level 0 is its hybrid net. Where the rule of the first level does
+    /// not exist, `outside` says what is done.
+    ///
+    /// # Errors
+    /// Those of [`Refinement::new`]; weights, and zero intervals across a boundary.
+    pub fn hybrid(mesh: &Mesh, rule: FirstLevel, outside: Outside, domain: Domain) -> Result<Self, Error> {
+        check_points(mesh, domain)?;
+        if mesh.weights().is_some() {
+            return Err(Error::Combination {
+                what: "a mesh with weights, that is a fourth coordinate",
+                accepted: "points of three coordinates",
+            });
         }
-        Ok(meshes)
+        let mesh = mesh.without_unused();
+        let refinement = Refinement::new(&mesh, Scheme::Hnuss(rule), outside)?;
+        let net = refinement.hybrid().expect("HNUSS has a hybrid net");
+        let sizes: BTreeSet<usize> = net
+            .extraordinary_faces()
+            .map(|face| net.net().topology().face_size(face))
+            .collect();
+        let study = Study {
+            // that of every n-gon (Li, Wei and Zhang 2019, Lemma 1)
+            lambdas: sizes.into_iter().map(|n| (n, 0.5)).collect(),
+            levels: Levels::Hybrid(Box::new(refinement)),
+            mesh,
+            domain,
+            steps: 0,
+        };
+        check_domain(&study.space(0, Ends::Open)?, domain)?;
+        Ok(study)
     }
 
-    fn space(&self, mesh: &Mesh, ends: Ends) -> Result<Space, Error> {
-        let space = Space::new(mesh, self.rules, ends, self.tuned)?;
+    /// Vertices with the simple rule of HNUSS for want of an eigen-polyhedron.
+    pub fn simple(&self) -> &[u32] {
+        match &self.levels {
+            Levels::Uniform(..) => &[],
+            Levels::Hybrid(refinement) => &refinement.simple,
+        }
+    }
+
+    /// The space of a level over its control mesh.
+    fn space(&self, level: usize, ends: Ends) -> Result<Space, Error> {
+        let space = match &self.levels {
+            Levels::Uniform(rules, tuned) => {
+                // one by one, as several at once would have another order of points
+                let one = |mesh: Mesh, _| refined(&mesh, rules, 1);
+                let mesh = (0..level).try_fold(self.mesh.clone(), one)?;
+                Space::new(&mesh, rules, ends, *tuned)?
+            }
+            Levels::Hybrid(refinement) => {
+                let mut refinement = refinement.clone();
+                (0..level).try_for_each(|_| refinement.refine())?;
+                let points: Vec<[f64; 3]> = self.mesh.points().iter().map(|p| [p.x, p.y, p.z]).collect();
+                let points = refinement.apply(&points)?;
+                hybrid::space(refinement.hybrid().expect("it stays one"), &points, level, ends)?
+            }
+        };
         space.ok_or(Error::TooClose { steps: self.steps })
     }
 
     /// The space whose geometry is the domain.
-    fn fitted(&self, mesh: &Mesh, options: &Options) -> Result<Space, Error> {
-        let mut space = self.space(mesh, options.ends)?;
+    fn fitted(&self, level: usize, options: &Options) -> Result<Space, Error> {
+        let mut space = self.space(level, options.ends)?;
         if self.domain == Domain::Sphere {
             for _ in 0..FITS {
                 project_to_sphere(&mut space, options)?;
             }
         }
         Ok(space)
+    }
+
+    /// The spaces coarser than one with their embeddings, coarsest first.
+    fn coarser(&self, level: usize, space: &Space, ends: Ends) -> Result<Vec<(Sparse, Space)>, Error> {
+        let Levels::Uniform(rules, tuned) = &self.levels else {
+            return Err(Error::Combination {
+                what: "multigrid in a space of HNUSS",
+                accepted: "cholesky",
+            });
+        };
+        let mut all: Vec<(Mesh, Space)> = Vec::new();
+        for coarse in 0..level {
+            let mesh = match all.last() {
+                Some((mesh, _)) => refined(mesh, rules, 1)?,
+                None => self.mesh.clone(),
+            };
+            let own = Space::new(&mesh, rules, ends, *tuned)?;
+            all.push((mesh, own.ok_or(Error::TooClose { steps: coarse })?));
+        }
+        let finer = all.iter().skip(1).map(|(_, space)| space).chain([space]);
+        let embeddings: Vec<Sparse> = all
+            .iter()
+            .zip(finer)
+            .map(|((mesh, coarse), fine)| embedding(mesh, coarse, fine))
+            .collect::<Result<_, _>>()?;
+        Ok(embeddings
+            .into_iter()
+            .zip(all.into_iter().map(|(_, space)| space))
+            .collect())
+    }
+
+    /// The options with the only solver of a space that has one.
+    fn solvable(&self, options: &Options) -> Options {
+        let solver = match self.levels {
+            Levels::Hybrid(_) => options.solver.or(Some(Solver::Cholesky)),
+            Levels::Uniform(..) => options.solver,
+        };
+        Options { solver, ..*options }
     }
 
     fn check(options: &Options) -> Result<(), Error> {
@@ -151,18 +233,11 @@ impl<'a> Study<'a> {
             }
             _ => {}
         }
-        let meshes = self.meshes(level)?;
-        let space = self.fitted(&meshes[level], options)?;
-        let embeddings = || {
-            let spaces = meshes[..level].iter().map(|mesh| self.space(mesh, options.ends));
-            let spaces: Vec<Space> = spaces.collect::<Result<_, _>>()?;
-            let finer = spaces.iter().skip(1).chain([&space]);
-            let all = meshes.iter().zip(&spaces).zip(finer);
-            let all = all.map(|((mesh, coarse), fine)| embedding(mesh, coarse, fine));
-            let all: Vec<_> = all.collect::<Result<_, _>>()?;
-            Ok(all.into_iter().zip(spaces).collect())
-        };
-        run(&space, problem, u, options, embeddings)
+        let options = self.solvable(options);
+        let space = self.fitted(level, &options)?;
+        run(&space, problem, u, &options, || {
+            self.coarser(level, &space, options.ends)
+        })
     }
 
     /// The lowest eigenvalues of the Laplacian on one level, as many as wanted or as it has unknowns.
@@ -187,11 +262,11 @@ impl<'a> Study<'a> {
         if self.domain != Domain::Planar && membrane == Membrane::Held {
             return Err(Error::Closed);
         }
-        let space = self.fitted(&refined(&self.mesh, self.rules, level)?, options)?;
+        let space = self.fitted(level, options)?;
         spectrum(&space, membrane, count, options)
     }
 
-    /// The control mesh of level 0.
+    /// The control mesh of level 0; under HNUSS the one whose hybrid net is level 0.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
@@ -200,7 +275,11 @@ impl<'a> Study<'a> {
     /// passes through, or the factor, which has some 22 n log2 n entries (empirical, meshes of 10^4 to 10^6
     /// unknowns).
     pub fn bytes(&self, level: usize, solver: Option<Solver>) -> f64 {
-        let faces = self.mesh.face_count() as f64 * 4.0_f64.powi(level as i32);
+        let first = match &self.levels {
+            Levels::Uniform(..) => self.mesh.face_count(),
+            Levels::Hybrid(refinement) => refinement.net().topology().face_count(),
+        };
+        let faces = first as f64 * 4.0_f64.powi(level as i32);
         let factored = solver.unwrap_or(default_solver(faces as usize)) == Solver::Cholesky;
         let solver = if factored {
             8.0 * 22.0 * faces.log2().max(1.0)
@@ -229,6 +308,27 @@ impl<'a> Study<'a> {
     }
 }
 
+fn check_points(mesh: &Mesh, domain: Domain) -> Result<(), Error> {
+    for (vertex, p) in mesh.points().iter().enumerate() {
+        let position = [p.x, p.y, p.z];
+        if !position.iter().all(|c| c.is_finite()) {
+            return Err(Error::NotFinite { vertex, position });
+        }
+        if domain == Domain::Planar && p.z != 0.0 {
+            return Err(Error::NotPlanar { vertex, position });
+        }
+    }
+    Ok(())
+}
+
+fn check_domain(space: &Space, domain: Domain) -> Result<(), Error> {
+    match (domain, space.edges.is_empty()) {
+        (Domain::Planar, true) => Err(Error::Closed),
+        (Domain::Closed | Domain::Sphere, false) => Err(Error::Open),
+        _ => Ok(()),
+    }
+}
+
 fn refined(mesh: &Mesh, rules: &Rules, levels: usize) -> Result<Mesh, Error> {
     let mut refiner = Refiner::new(rules);
     refiner.boundary = Some(Boundary::Corner);
@@ -244,6 +344,7 @@ fn project_to_sphere(space: &mut Space, options: &Options) -> Result<(), Error> 
         let (_, positions) = points_of(space, table, face);
         let outward = |q: usize| Geometry::new(table.at(q), &positions, 1.0, false, false).is_ok_and(|at| at.outward());
         if !(0..table.weights.len()).all(outward) {
+            let face = space.cells[face].face as usize;
             return Err(Error::NotStar { face });
         }
     }

@@ -7,8 +7,10 @@
 //! parameters of its own, so there are no powers of two; Jacobians may become as small as `lambda^2m`.
 
 use crate::{Error, MOST_ANNULI};
+use eigenring_nonuniform::Element;
 use eigenring_scheme::{DenseNet, Level, Site, refine};
 use eigenring_spectral::{Eigenvalue, LocalSystem, Matrix, local_matrix, numbering};
+use eigenring_spline::intervals::basis;
 use eigenring_spline::quadrature::gauss_legendre;
 use eigenring_spline::uniform;
 
@@ -30,6 +32,8 @@ pub(crate) struct Table {
     pub weights: Vec<f64>,
     /// For each point the jets of the functions.
     pub jets: Vec<Jet>,
+    /// Of a face at an extraordinary vertex, the weights of the functions' coefficients in the limit there.
+    pub limit: Option<Vec<f64>>,
 }
 
 impl Table {
@@ -42,7 +46,18 @@ impl Table {
 
 /// The 16 jets at a point of a patch, the control point (i, j) at `4 j + i`.
 pub(crate) fn bicubic(s: f64, t: f64) -> [Jet; 16] {
-    let (a, b) = (uniform::basis(3, s), uniform::basis(3, t));
+    let four = |t: f64| uniform::basis(3, t).map(|values| [values[0], values[1], values[2], values[3]]);
+    tensor(four(s), four(t))
+}
+
+/// The same with knot intervals, s and t in units of the own one.
+pub(crate) fn with_intervals(intervals: [[f64; 5]; 2], s: f64, t: f64) -> [Jet; 16] {
+    let [along, across] = intervals.map(|five| five.map(|d| d / five[2]));
+    tensor(basis(along, s), basis(across, t))
+}
+
+/// From values, first and second derivatives in both directions.
+fn tensor(a: [[f64; 4]; 3], b: [[f64; 4]; 3]) -> [Jet; 16] {
     std::array::from_fn(|k| {
         let (i, j) = (k % 4, k / 4);
         [
@@ -79,10 +94,47 @@ pub(crate) fn far(order: usize) -> Table {
         columns: (0..16).collect(),
         weights: Vec::new(),
         jets: Vec::new(),
+        limit: None,
     };
     for ([s, t], weight) in rule(order) {
         table.weights.push(weight);
         table.jets.extend(bicubic(s, t));
+    }
+    table
+}
+
+/// An element with knot intervals.
+pub(crate) fn element(of: &Element, order: usize, depth: usize, scaled: bool) -> Table {
+    let (pieces, limit) = of.pieces(depth);
+    let read = |column: &usize| {
+        pieces
+            .iter()
+            .any(|piece| (0..16).any(|k| piece.values[(k, *column)] != 0.0))
+    };
+    let columns: Vec<usize> = (0..of.columns()).filter(read).collect();
+    let mut table = Table {
+        limit: limit.map(|weights| columns.iter().map(|&column| weights[column]).collect()),
+        columns,
+        weights: Vec::new(),
+        jets: Vec::new(),
+    };
+    let rule = rule(order);
+    for piece in &pieces {
+        // areas shrink by 1/4 at each level
+        let factor = if scaled && piece.is_last { 4.0 / 3.0 } else { 1.0 };
+        for &([s, t], weight) in &rule {
+            table.weights.push(weight * factor);
+            let jets = with_intervals(piece.intervals, s, t);
+            for &column in &table.columns {
+                let mut sum = [0.0; 6];
+                for (k, jet) in jets.iter().enumerate() {
+                    sum[0] += jet[0] * piece.values[(k, column)];
+                    let entry = piece.derivatives[(k, column)];
+                    (1..6).for_each(|order| sum[order] += jet[order] * entry);
+                }
+                table.jets.push(sum);
+            }
+        }
     }
     table
 }
@@ -95,6 +147,7 @@ fn patches(of: &[Patch<'_>], columns: Vec<usize>, order: usize) -> Table {
         columns,
         weights: Vec::new(),
         jets: Vec::new(),
+        limit: None,
     };
     let rule = rule(order);
     for (rows, values, derivatives, factor) in of {
@@ -271,7 +324,9 @@ impl Around {
                 .any(|(rows, values, ..)| rows.iter().any(|&r| values[(r, *column)] != 0.0))
         };
         let columns = (0..self.s.rows()).filter(used).collect();
-        patches(&list, columns, order)
+        let mut table = patches(&list, columns, order);
+        table.limit = Some(table.columns.iter().map(|&column| self.limit[column]).collect());
+        table
     }
 
     /// A face beside those at the centre, at (1, 0), (1, 1) or (0, 1), over its own 16 points.

@@ -3,13 +3,16 @@
 
 use crate::assembly::{Form, assemble};
 use crate::geometry::Geometry;
+use crate::hybrid;
 use crate::nested::{embedding, refinement};
 use crate::norms::errors;
 use crate::solution;
-use crate::space::{Ends, Space};
+use crate::space::{Depth, Ends, Space};
 use crate::tables::{Around, bicubic};
+use eigenring_nonuniform::{FirstLevel, Outside, Refinement};
 use eigenring_scheme::{Definition, Spec};
-use eigenring_surface::{Boundary, Mesh, Refiner, Rules, shapes};
+use eigenring_surface::features::edge;
+use eigenring_surface::{Boundary, Mesh, Refiner, Rules, Topology, shapes};
 
 fn rules(name: &str) -> Rules {
     Rules::new(Definition::Family(name.parse::<Spec>().expect("a scheme")))
@@ -49,7 +52,7 @@ fn energies_of_a_function_are_those_of_its_embeddings() {
         for level in 0..3 {
             // the mass is of bidegree 11, and energies are rational
             let energy = |form: Form, gauss: usize| {
-                let tables = coarse.tables(gauss, &Around::depth, false);
+                let tables = coarse.tables(gauss, Depth::Area, false);
                 let (matrices, _) = assemble(&coarse, &tables, &[form], None).expect("matrices");
                 dot(&u, &matrices[0].times(&u))
             };
@@ -82,6 +85,52 @@ fn energies_of_a_function_are_those_of_its_embeddings() {
     }
 }
 
+/// Halving makes points by rules of its own; the functions of the coarse net are those of the fine one.
+#[test]
+fn energies_of_a_function_of_hnuss_are_those_of_its_halvings() {
+    let mut mesh = shapes::fan(5);
+    let topology = Topology::new(&mesh).expect("a surface");
+    // the intervals of the spokes of the centre, 3 and 1 in turn
+    let centre = (0..topology.vertex_count() as u32).find(|&v| topology.fan(v).spokes.len() == 5);
+    let spokes = topology.fan(centre.expect("a centre")).spokes;
+    let knot = |(i, &spoke): (usize, &u32)| {
+        let [a, b] = topology.ends(spoke);
+        (edge(a, b), [3.0, 1.0][i % 2])
+    };
+    mesh.features.knots = spokes.iter().enumerate().map(knot).collect();
+    let scheme = eigenring_nonuniform::Scheme::Hnuss(FirstLevel::Improved);
+    let mut refinement = Refinement::new(&mesh, scheme, Outside::Error).expect("a hybrid net");
+    let positions: Vec<[f64; 3]> = mesh.points().iter().map(|p| [p.x, p.y, p.z]).collect();
+    let count = refinement.net().topology().vertex_count();
+    let mut u: Vec<[f64; 1]> = (0..count).map(|i| [(7.3 * i as f64).sin()]).collect();
+    let mut all: Vec<[f64; 2]> = Vec::new();
+    for level in 0..4 {
+        let points = refinement.apply(&positions).expect("points");
+        let net = refinement.hybrid().expect("a hybrid net").clone();
+        let space = hybrid::space(&net, &points, level, Ends::Natural)
+            .expect("a space")
+            .expect("wide enough");
+        let mut values = vec![0.0; space.positions.len()];
+        u.iter().zip(&mut values).for_each(|([u], value)| *value = *u);
+        let energy = |form: Form, gauss: usize| {
+            let (matrices, _) =
+                assemble(&space, &space.tables(gauss, Depth::Area, false), &[form], None).expect("matrices");
+            dot(&values, &matrices[0].times(&values))
+        };
+        all.push([energy(Form::Mass, 6), energy(Form::Stiffness, 12)]);
+        let (table, _) = net.halved().expect("a net");
+        u = table.apply(&u).expect("points");
+        refinement.refine().expect("a net");
+    }
+    for form in 0..2 {
+        let values: Vec<f64> = all.iter().map(|pair| pair[form]).collect();
+        assert!(
+            values.iter().all(|value| (value / values[0] - 1.0).abs() <= 1e-12),
+            "{values:?}"
+        );
+    }
+}
+
 #[test]
 fn coordinates_have_the_energy_of_the_area() {
     let rules = rules("lambda:lambda=0.39");
@@ -89,7 +138,7 @@ fn coordinates_have_the_energy_of_the_area() {
     // over control points and ghosts
     let own = |i: usize| vec![(i as u32, 1.0)];
     space.transform = (0..space.positions.len()).map(own).collect();
-    let tables = space.tables(4, &Around::depth, false);
+    let tables = space.tables(4, Depth::Area, false);
     let (matrices, weights) = assemble(&space, &tables, &[Form::Stiffness], Some(&|_| 1.0)).expect("matrices");
     let area: f64 = weights.iter().sum();
     let [x, y]: [Vec<f64>; 2] = [0, 1].map(|axis| space.positions.iter().map(|p| p[axis]).collect());
@@ -114,7 +163,7 @@ fn second_derivatives_need_the_matrix_without_its_dominant_eigenvalue() {
     let mut space = space(&shapes::fan(6), &rules, Ends::Open);
     let exact: Vec<f64> = space.positions.iter().map(|p| 1.0 + 2.0 * p[0] - 3.0 * p[1]).collect();
     let mut h2 = || {
-        let tables = space.tables(6, &|_| 35, false);
+        let tables = space.tables(6, Depth::Given(35), false);
         let error = errors(&space, &tables, &exact, &u).expect("norms")[0];
         space.around.values_mut().for_each(Around::forget_deflation);
         error

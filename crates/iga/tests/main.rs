@@ -2,6 +2,7 @@
 
 mod analysis;
 mod common;
+mod hnuss;
 mod multigrid;
 mod problems;
 mod spectra;

@@ -3,12 +3,16 @@
 //! on a square are the sums of those on an interval.
 
 use crate::common::{rules, squares};
-use eigenring_iga::{Domain, Membrane, Options, Study};
+use eigenring_iga::{Domain, Membrane, Options, Spectrum, Study};
+use eigenring_nonuniform::{FirstLevel, Outside};
+use eigenring_surface::features::edge;
+use eigenring_surface::{Mesh, Point3};
 use faer::{Mat, Side};
 
-/// The values of all cubic functions on `n` open intervals of the unit interval, and their derivatives.
-fn functions(n: usize, x: f64) -> [Vec<f64>; 2] {
-    let knots: Vec<f64> = (0..n + 7).map(|k| (k.clamp(3, n + 3) - 3) as f64 / n as f64).collect();
+/// The values of all cubic functions on an interval with these breaks, open at its ends, and their derivatives.
+fn functions(breaks: &[f64], x: f64) -> [Vec<f64>; 2] {
+    let n = breaks.len() - 1;
+    let knots: Vec<f64> = (0..n + 7).map(|k| breaks[k.clamp(3, n + 3) - 3]).collect();
     let inside = |k: usize| f64::from(u8::from(knots[k] <= x && x < knots[k + 1]));
     let mut rows = vec![(0..n + 6).map(inside).collect::<Vec<f64>>()];
     let over = |a: f64, b: f64| if b > 0.0 { a / b } else { 0.0 };
@@ -28,8 +32,9 @@ fn functions(n: usize, x: f64) -> [Vec<f64>; 2] {
     [rows.swap_remove(3), slopes]
 }
 
-/// The eigenvalues of `-u'' = a u` on the unit interval in splines, free or held at the ends.
-fn interval(n: usize, held: bool) -> Vec<f64> {
+/// The eigenvalues of `-u'' = a u` on an interval in splines, free or held at the ends.
+fn interval(breaks: &[f64], held: bool) -> Vec<f64> {
+    let n = breaks.len() - 1;
     // four points are exact to degree 7 (Abramowitz and Stegun, table 25.4)
     let gauss = [
         (0.339_981_043_584_856_3, 0.652_145_154_862_546_1),
@@ -38,10 +43,11 @@ fn interval(n: usize, held: bool) -> Vec<f64> {
     let skipped = usize::from(held);
     let size = n + 3 - 2 * skipped;
     let (mut stiffness, mut mass) = (Mat::<f64>::zeros(size, size), Mat::<f64>::zeros(size, size));
-    for cell in 0..n {
+    for cell in breaks.windows(2) {
+        let half = 0.5 * (cell[1] - cell[0]);
         for (node, weight) in gauss.into_iter().flat_map(|(x, w)| [(x, w), (-x, w)]) {
-            let [values, slopes] = functions(n, (cell as f64 + 0.5 + 0.5 * node) / n as f64);
-            let weight = 0.5 * weight / n as f64;
+            let [values, slopes] = functions(breaks, cell[0] + half * (1.0 + node));
+            let weight = half * weight;
             for i in 0..size {
                 for j in 0..size {
                     mass[(i, j)] += weight * values[i + skipped] * values[j + skipped];
@@ -65,14 +71,58 @@ fn a_square_has_the_eigenvalues_of_tensor_splines() {
         let found = study
             .spectrum(1, membrane, 20, &Options::default())
             .expect("a spectrum");
-        let line = interval(6, held);
-        let mut sums: Vec<f64> = line.iter().flat_map(|a| line.iter().map(move |b| a + b)).collect();
-        sums.sort_by(f64::total_cmp);
-        for (value, expected) in found.eigenvalues.iter().zip(sums) {
-            assert!(
-                (value - expected).abs() <= 1e-11 * (1.0 + expected),
-                "{membrane:?}: {value} for {expected}"
-            );
+        let line = interval(&(0..=6).map(|k| f64::from(k) / 6.0).collect::<Vec<_>>(), held);
+        compare(&found, sums(&line, &line), &format!("{membrane:?}"));
+    }
+}
+
+fn sums(a: &[f64], b: &[f64]) -> Vec<f64> {
+    let mut sums: Vec<f64> = a.iter().flat_map(|a| b.iter().map(move |b| a + b)).collect();
+    sums.sort_by(f64::total_cmp);
+    sums
+}
+
+fn compare(found: &Spectrum, expected: Vec<f64>, what: &str) {
+    for (value, expected) in found.eigenvalues.iter().zip(expected) {
+        let off = (value - expected).abs();
+        assert!(off <= 1e-11 * (1.0 + expected), "{what}: {value} for {expected}");
+    }
+}
+
+/// A rectangle with unequal knot intervals. Points are where splines are linear in the parameter: the means of
+/// three knots, mirrored at the ends.
+#[test]
+fn a_rectangle_with_knot_intervals_has_the_eigenvalues_of_tensor_splines() {
+    let breaks: [&[f64]; 2] = [&[0.0, 1.0, 4.0, 4.5, 6.0], &[0.0, 0.7, 1.0, 3.0]];
+    let means = |breaks: &[f64]| -> Vec<f64> {
+        let last = breaks.len() - 1;
+        let inside = breaks.windows(3).map(|w| (w[0] + w[1] + w[2]) / 3.0);
+        [breaks[0]].into_iter().chain(inside).chain([breaks[last]]).collect()
+    };
+    let [x, y] = breaks.map(means);
+    let (columns, rows) = (x.len(), y.len());
+    let at = |i: usize, j: usize| (j * columns + i) as u32;
+    let points = y.iter().flat_map(|&y| x.iter().map(move |&x| Point3::new(x, y, 0.0)));
+    let cells = (1..rows).flat_map(|j| (1..columns).map(move |i| (i, j)));
+    let faces = cells.flat_map(|(i, j)| [at(i - 1, j - 1), at(i, j - 1), at(i, j), at(i - 1, j)]);
+    let mut mesh = Mesh::of_quads(points.collect(), faces.collect());
+    let along = (1..columns).map(|i| (edge(at(i - 1, 0), at(i, 0)), breaks[0][i] - breaks[0][i - 1]));
+    let across = (1..rows).map(|j| (edge(at(0, j - 1), at(0, j)), breaks[1][j] - breaks[1][j - 1]));
+    mesh.features.knots = along.chain(across).collect();
+    let study = Study::hybrid(&mesh, FirstLevel::Improved, Outside::Error, Domain::Planar).expect("a study");
+    for (membrane, held) in [(Membrane::Free, false), (Membrane::Held, true)] {
+        for level in 0..2 {
+            let found = study
+                .spectrum(level, membrane, 12, &Options::default())
+                .expect("a spectrum");
+            let lines = breaks.map(|breaks| {
+                let middle = breaks.windows(2).map(|w| 0.5 * (w[0] + w[1]));
+                let mut all: Vec<f64> = breaks.iter().copied().chain(middle.filter(|_| level == 1)).collect();
+                all.sort_by(f64::total_cmp);
+                interval(&all, held)
+            });
+            let [a, b] = lines;
+            compare(&found, sums(&a, &b), &format!("{membrane:?}, level {level}"));
         }
     }
 }

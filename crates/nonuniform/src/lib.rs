@@ -33,4 +33,5 @@ pub use primal::{Step, eigen_polyhedron_step, nurss_step};
 pub use refine::{NAMES, Refined, Refinement, Scheme, refined};
 pub use spokes::Spokes;
 pub use star::Star;
+pub use surface::elements::{Element, Piece, grid};
 pub use surface::{Sample, Surface};

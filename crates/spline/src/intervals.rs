@@ -73,15 +73,18 @@ pub fn limit<S: Scalar>([far, before, after, beyond]: [f64; 4]) -> [S; 3] {
 }
 
 /// The weights of `P_(j-1) .. P_(j+2)` at the parameter u of the span from `t_j = 0` to `t_(j+1) = d_j`, and
-/// those of the derivative, from the intervals `d_(j-2), .., d_(j+2)`, of which `d_j` is positive (Piegl and
-/// Tiller, *The NURBS Book*, 1997, algorithms A2.2 and A2.3).
-pub fn basis<S: Scalar>([before, left, own, right, after]: [f64; 5], u: S) -> [[S; 4]; 2] {
+/// those of the first and second derivative, from the intervals `d_(j-2), .., d_(j+2)`, of which `d_j` is
+/// positive (Piegl and Tiller, *The NURBS Book*, 1997, algorithms A2.2 and A2.3).
+pub fn basis<S: Scalar>([before, left, own, right, after]: [f64; 5], u: S) -> [[S; 4]; 3] {
     let s = S::exact;
     let ahead = [s(own), s(own) + s(right), s(own) + s(right) + s(after)].map(|t| t - u.clone());
     let behind = [u.clone(), u.clone() + s(left), u + s(left) + s(before)];
     let mut weights: [S; 4] = [S::one(), S::zero(), S::zero(), S::zero()];
-    let mut quadratic = weights.clone();
+    let (mut linear, mut quadratic) = (weights.clone(), weights.clone());
     for degree in 1..4 {
+        if degree == 2 {
+            linear = weights.clone();
+        }
         if degree == 3 {
             quadratic = weights.clone();
         }
@@ -94,12 +97,22 @@ pub fn basis<S: Scalar>([before, left, own, right, after]: [f64; 5], u: S) -> [[
         }
         weights[degree] = saved;
     }
+    // a derivative is differences of the basis of one degree less, scaled
+    let sizes = [
+        s(before) + s(left) + s(own),
+        s(left) + s(own) + s(right),
+        s(own) + s(right) + s(after),
+    ];
+    let differences = |of: [S; 3]| {
+        let [a, b, c]: [S; 3] = std::array::from_fn(|k| S::ratio(3, 1) * of[k].clone() / sizes[k].clone());
+        [-a.clone(), a - b.clone(), b - c.clone(), c]
+    };
+    let [p, q, ..] = linear;
+    let p = S::ratio(2, 1) * p / (s(left) + s(own));
+    let q = S::ratio(2, 1) * q / (s(own) + s(right));
+    let second = differences([-p.clone(), p - q.clone(), q]);
     let [a, b, c, _] = quadratic;
-    let three = || S::ratio(3, 1);
-    let a = three() * a / (s(before) + s(left) + s(own));
-    let b = three() * b / (s(left) + s(own) + s(right));
-    let c = three() * c / (s(own) + s(right) + s(after));
-    [weights, [-a.clone(), a - b.clone(), b - c.clone(), c]]
+    [weights, differences([a, b, c]), second]
 }
 
 #[cfg(test)]
@@ -136,10 +149,11 @@ mod tests {
             let (own, u) = (d[2] + 0.1, 0.3 * (d[2] + 0.1));
             let knots = [-d[0] - d[1], -d[1], 0.0, own, own + d[3], own + d[3] + d[0]];
             let four = [1, 2, 3, 4].map(|j| polar(c, [knots[j - 1], knots[j], knots[j + 1]]));
-            let [values, slopes] = basis::<f64>([d[0], d[1], own, d[3], d[0]], u);
+            let [values, slopes, bends] = basis::<f64>([d[0], d[1], own, d[3], d[0]], u);
             prop_assert!((sum(&values, &four) - polar(c, [u; 3])).abs() < 1e-12);
             let slope = c[1] + 2.0 * c[2] * u + 3.0 * c[3] * u * u;
             prop_assert!((sum(&slopes, &four) - slope).abs() < 1e-11);
+            prop_assert!((sum(&bends, &four) - 2.0 * c[2] - 6.0 * c[3] * u).abs() < 1e-9);
             if d[1] + d[2] > 0.0 {
                 let found = sum(&vertex::<f64>(d), &points);
                 prop_assert!((found - polar(c, [half(1), t[2], half(2)])).abs() < 1e-12);

@@ -75,7 +75,8 @@ impl HybridNet {
         is_one.then_some(hybrid)
     }
 
-    fn known(net: Net) -> Self {
+    /// A net that is known to be a hybrid net: its faces that are no quads are n-gons.
+    pub fn known(net: Net) -> Self {
         let topology = net.topology();
         let mut corners = vec![None; topology.vertex_count()];
         for face in (0..topology.face_count() as u32).filter(|&face| topology.face_size(face) != 4) {

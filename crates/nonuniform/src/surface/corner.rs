@@ -6,32 +6,39 @@
 //! in one of three patches. All is done with the limit of the n-gon as the origin, which is found anew at
 //! every level, so that distances keep their digits however small they are.
 
+use super::elements::{Piece, product};
 use super::patch::{Jet, evaluate};
 use crate::{Error, HybridNet, NGon};
 use eigenring_scheme::families::with_intervals;
 use eigenring_scheme::{Centre, Corner as Fan, Site, Table};
-use eigenring_spectral::local_matrix;
+use eigenring_spectral::{Matrix, local_matrix};
 
 /// Rings of points whose patches are the three beside the corner.
 const RINGS: usize = 3;
 
+#[derive(Clone, Debug)]
 pub(super) struct Corner {
     n: usize,
     /// The intervals of the spokes.
     d: Vec<f64>,
+    /// From the points of a level to those of the next.
     table: Table<f64>,
+    /// The weights of the corners of the n-gon in its limit.
     limit: Vec<f64>,
-    points: Vec<[f64; 4]>,
+    /// The vertices of the net that the points are.
+    pub vertices: Vec<u32>,
     sites: Vec<Site>,
 }
 
 impl Corner {
-    /// The neighbourhood of an n-gon in a net after two halvings.
-    pub fn new(net: &HybridNet, points: &[[f64; 4]], face: u32) -> Result<Self, Error> {
+    /// The neighbourhood of an n-gon in a net after two halvings; sector 0 is that of its corner `first`.
+    pub fn new(net: &HybridNet, face: u32, first: usize) -> Result<Self, Error> {
         let topology = net.net().topology();
-        let d = net.spokes(face);
+        let mut d = net.spokes(face);
         let n = d.len();
-        let halves: Vec<u32> = topology.face_halves(face).collect();
+        d.rotate_left(first);
+        let mut halves: Vec<u32> = topology.face_halves(face).collect();
+        halves.rotate_left(first);
         let cut_off = || Error::Range {
             what: "n-gon",
             given: face.to_string(),
@@ -81,7 +88,7 @@ impl Corner {
             limit: NGon::new(&d)?.limit_weights(),
             d,
             table,
-            points: vertices.iter().map(|&vertex| points[vertex as usize]).collect(),
+            vertices,
             sites,
         })
     }
@@ -102,10 +109,27 @@ impl Corner {
         found.expect("the first rings hold the nets of the three patches")
     }
 
+    /// The places of the 16 points, by rows along u, and the five intervals in both directions of the cell
+    /// (a, b) of a sector, one of (1, 0), (1, 1) and (0, 1). Intervals are those of the first level.
+    fn cell(&self, sector: usize, [a, b]: [i32; 2]) -> ([usize; 16], [[f64; 5]; 2]) {
+        let turn = |i: usize| self.d[i % self.n];
+        let five = |cell: i32, own: f64, beyond: f64| match cell {
+            0 => [beyond, 0.0, own, own, own],
+            _ => [0.0, own, own, own, own],
+        };
+        let intervals = [
+            five(a, turn(sector), turn(sector + 2)),
+            five(b, turn(sector + 1), turn(sector + self.n - 1)),
+        ];
+        let place = |k: usize| self.index(sector, a + (k % 4) as i32 - 1, b + (k / 4) as i32 - 1);
+        (std::array::from_fn(place), intervals)
+    }
+
     /// The point at parameters from the corner of a sector, along spoke i and spoke i+1.
-    pub fn at(self, sector: usize, [u, v]: [f64; 2]) -> Jet {
+    pub fn at(self, points: &[[f64; 4]], sector: usize, [u, v]: [f64; 2]) -> Jet {
         let (along, next) = (self.d[sector], self.d[(sector + 1) % self.n]);
-        let (mut points, mut limit) = centred(&self.points, self.corners(), &self.limit);
+        let points: Vec<[f64; 4]> = self.vertices.iter().map(|&vertex| points[vertex as usize]).collect();
+        let (mut points, mut limit) = centred(&points, self.corners(), &self.limit);
         let (mut x, mut y, mut scale) = (u / along, v / next, 1.0);
         if x == 0.0 && y == 0.0 {
             return tangents(&self.d, limit, self.corners().map(|i| points[i]));
@@ -120,26 +144,68 @@ impl Corner {
             (points, limit) = (moved, std::array::from_fn(|k| limit[k] + by[k]));
             (x, y, scale) = (2.0 * x, 2.0 * y, 0.5 * scale);
         }
-        let cells = [x, y].map(|x| if x >= 1.0 { 1 } else { 0 });
-        let [a, b] = cells;
-        let net: [[[f64; 4]; 4]; 4] = std::array::from_fn(|k| {
-            std::array::from_fn(|j| points[self.index(sector, a + j as i32 - 1, b + k as i32 - 1)])
-        });
-        let five = |cell: i32, own: f64, beyond: f64| match cell {
-            0 => [beyond, 0.0, own, own, own],
-            _ => [0.0, own, own, own, own],
-        };
-        let turn = |i: usize| self.d[i % self.n];
-        let intervals = [
-            five(a, along, turn(sector + 2)),
-            five(b, next, turn(sector + self.n - 1)),
-        ];
+        let [a, b] = [x, y].map(|x| i32::from(x >= 1.0));
+        let (places, intervals) = self.cell(sector, [a, b]);
+        let net: [[[f64; 4]; 4]; 4] = std::array::from_fn(|k| std::array::from_fn(|j| points[places[4 * k + j]]));
         let place = [(x - f64::from(a)) * along, (y - f64::from(b)) * next];
         let mut jet = evaluate(&net, intervals, place);
         // intervals were those of the first level
         jet.first = jet.first.map(|slope| slope.map(|x| x / scale));
         jet.value = std::array::from_fn(|k| jet.value[k] + limit[k]);
         jet
+    }
+
+    /// The weights of the points in the limit of the n-gon.
+    fn limit_row(&self) -> Vec<f64> {
+        let mut row = vec![0.0; self.vertices.len()];
+        self.corners().zip(&self.limit).for_each(|(at, w)| row[at] = *w);
+        row
+    }
+
+    /// The pieces of the element in sector 0 down to a depth, and the weights of its corner, over the unknowns
+    /// whose `rows` make the points of the net. Derivatives use `S - 1 l^T` in place of the matrix S of the
+    /// levels, l the weights of the limit: rows of `S^m` tend to l, and their differences would lose digits.
+    pub fn pieces(&self, rows: &Matrix<f64>, depth: usize) -> (Vec<Piece>, Vec<f64>) {
+        let columns = rows.columns();
+        let limit = Matrix::from_rows(vec![self.limit_row()], self.vertices.len());
+        let centre = |rows: &Matrix<f64>| product(&limit, rows).row(0).to_vec();
+        let refined = |rows: &Matrix<f64>| {
+            let mut fine = vec![vec![0.0; columns]; rows.rows()];
+            for (at, sums) in fine.iter_mut().enumerate() {
+                for (source, &weight) in self.table.row(at) {
+                    sums.iter_mut()
+                        .zip(rows.row(source))
+                        .for_each(|(sum, x)| *sum += weight * x);
+                }
+            }
+            fine
+        };
+        let (mut values, mut deflated) = (rows.clone(), rows.clone());
+        let mut pieces = Vec::with_capacity(3 * depth);
+        for level in 1..=depth {
+            let removed = centre(&deflated);
+            let mut fine = refined(&deflated);
+            for row in &mut fine {
+                row.iter_mut().zip(&removed).for_each(|(x, removed)| *x -= removed);
+            }
+            deflated = Matrix::from_rows(fine, columns);
+            values = Matrix::from_rows(refined(&values), columns);
+            for cell in [[1, 0], [1, 1], [0, 1]] {
+                let (places, intervals) = self.cell(0, cell);
+                pieces.push(Piece {
+                    intervals,
+                    values: Matrix::from_fn(16, columns, |k, column| values[(places[k], column)]),
+                    derivatives: Matrix::from_fn(16, columns, |k, column| deflated[(places[k], column)]),
+                    is_last: level == depth,
+                });
+            }
+        }
+        (pieces, centre(rows))
+    }
+
+    /// The intervals of the spokes, from that of sector 0 on.
+    pub fn intervals(&self) -> &[f64] {
+        &self.d
     }
 
     /// The places of the corners of the n-gon.

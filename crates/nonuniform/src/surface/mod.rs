@@ -10,6 +10,7 @@
 //! the vertex itself.
 
 mod corner;
+pub mod elements;
 mod patch;
 
 use crate::{Error, FirstLevel, HybridNet, Outside, Place, Refinement, Scheme};
@@ -48,21 +49,27 @@ struct Level {
     children: Vec<u32>,
 }
 
+/// For each face of a net the first of its children after a halving.
+fn children(net: &HybridNet) -> Vec<u32> {
+    let topology = net.net().topology();
+    let mut children = Vec::with_capacity(topology.face_count());
+    let mut count = 0;
+    for face in 0..topology.face_count() as u32 {
+        children.push(count);
+        let half = topology.face_halves(face).start;
+        let cut = |half: u32| topology.face_size(face) == 4 && net.net().interval(half) > 0.0;
+        count += match (cut(half), cut(half + 1)) {
+            (true, true) => 4,
+            (false, false) => 1,
+            _ => 2,
+        };
+    }
+    children
+}
+
 impl Level {
     fn new(net: HybridNet, points: Vec<[f64; 4]>) -> Self {
-        let topology = net.net().topology();
-        let mut children = Vec::with_capacity(topology.face_count());
-        let mut count = 0;
-        for face in 0..topology.face_count() as u32 {
-            children.push(count);
-            let half = topology.face_halves(face).start;
-            let cut = |half: u32| topology.face_size(face) == 4 && net.net().interval(half) > 0.0;
-            count += match (cut(half), cut(half + 1)) {
-                (true, true) => 4,
-                (false, false) => 1,
-                _ => 2,
-            };
-        }
+        let children = children(&net);
         Level { net, points, children }
     }
 
@@ -176,8 +183,8 @@ impl Surface {
             .ngon_at(topology.origin(start + corner))
             .expect("it was found there");
         let sector = half - topology.face_halves(topology.face(half)).start;
-        let neighbourhood = Corner::new(&own.net, &own.points, topology.face(half))?;
-        let jet = neighbourhood.at(sector as usize, turned([u, v], sides, corner));
+        let neighbourhood = Corner::new(&own.net, topology.face(half), 0)?;
+        let jet = neighbourhood.at(&own.points, sector as usize, turned([u, v], sides, corner));
         Ok(jet.turned(corner))
     }
 

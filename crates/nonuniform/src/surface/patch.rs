@@ -46,8 +46,8 @@ impl Jet {
 
 /// The patch of 4 x 4 points, by rows along u, with five intervals in each direction.
 pub(super) fn evaluate(points: &[[[f64; 4]; 4]; 4], intervals: [[f64; 5]; 2], [u, v]: [f64; 2]) -> Jet {
-    let [in_u, by_u] = basis(intervals[0], u);
-    let [in_v, by_v] = basis(intervals[1], v);
+    let [in_u, by_u, _] = basis(intervals[0], u);
+    let [in_v, by_v, _] = basis(intervals[1], v);
     let combined = |a: &[f64; 4], b: &[f64; 4]| {
         let mut sum = [0.0; 4];
         for (row, wb) in points.iter().zip(b) {
@@ -76,14 +76,19 @@ fn two_across(net: &Net, half: u32) -> [f64; 2] {
     }
 }
 
-/// The point of a quad without a corner on an n-gon, whose first half-edge is `start`.
-pub(super) fn regular(net: &Net, points: &[[f64; 4]], start: u32, parameters: [f64; 2]) -> Jet {
-    let topology = net.topology();
+/// The five intervals in both directions of a quad whose first half-edge is `start`.
+pub(super) fn intervals(net: &Net, start: u32) -> [[f64; 5]; 2] {
     let five = |near: u32, far: u32, own: u32| {
         let ([a, b], [c, d]) = (two_across(net, near), two_across(net, far));
         [b, a, net.interval(own), c, d]
     };
-    let intervals = [five(start + 3, start + 1, start), five(start, start + 2, start + 1)];
+    [five(start + 3, start + 1, start), five(start, start + 2, start + 1)]
+}
+
+/// The point of a quad without a corner on an n-gon, whose first half-edge is `start`.
+pub(super) fn regular(net: &Net, points: &[[f64; 4]], start: u32, parameters: [f64; 2]) -> Jet {
+    let topology = net.topology();
+    let intervals = intervals(net, start);
     // rows k = -1 .. 2 of points j = -1 .. 2
     let middle = [
         row(topology, points, start),
