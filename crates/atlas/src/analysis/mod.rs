@@ -7,12 +7,14 @@ pub use spectra::{Membranes, Spectra, spectra};
 
 use crate::compare::compare;
 use crate::error::Error;
+use crate::meshes;
 use crate::progress::Progress;
 use crate::schemes::{SchemeName, Tuner};
 use crate::table::Table;
 use eigenring_iga::{
     Dirichlet, Domain, Ends, Norms, Options, Outcome, Problem, Solver, Study, accepts, predicted, solution,
 };
+use eigenring_nonuniform::{FirstLevel, Outside, Scheme};
 use eigenring_scheme::user::Reading;
 use eigenring_surface::{Mesh, Rules};
 use serde_json::{Map, Value, json};
@@ -66,6 +68,53 @@ impl Task {
     }
 }
 
+/// What makes the spaces of a mesh.
+#[derive(Debug)]
+pub enum Basis {
+    /// A scheme whose regular part is bicubic.
+    Rules(Box<Rules>),
+    /// HNUSS, with knot intervals.
+    Hnuss(FirstLevel, Outside),
+}
+
+impl Basis {
+    /// That of a scheme on a mesh.
+    ///
+    /// # Errors
+    /// Those of [`meshes::rules`]; other schemes with knot intervals, which are evaluated nowhere.
+    pub fn new(scheme: SchemeName, mesh: &Mesh, outside: Outside, tuner: &Tuner<'_>) -> Result<Self, Error> {
+        match scheme {
+            SchemeName::NonUniform(Scheme::Hnuss(rule)) => Ok(Basis::Hnuss(rule, outside)),
+            SchemeName::NonUniform(other) => Err(Error::Usage {
+                message: format!(
+                    "{other} has no finite elements: its surface is no union of patches near extraordinary vertices"
+                ),
+                accepted: "hnuss[:simple|printed] and bicubic schemes with one-ring rules".to_owned(),
+            }),
+            _ => Ok(Basis::Rules(Box::new(meshes::rules(&scheme.into(), mesh, &[], tuner)?))),
+        }
+    }
+
+    /// What the scheme is called.
+    pub fn name(&self) -> String {
+        match self {
+            Basis::Rules(rules) => rules.definition().name(),
+            Basis::Hnuss(rule, _) => Scheme::Hnuss(*rule).to_string(),
+        }
+    }
+
+    /// The spaces of a mesh.
+    ///
+    /// # Errors
+    /// Those of [`Study`].
+    pub fn study(&self, mesh: &Mesh, domain: Domain) -> Result<Study<'_>, eigenring_iga::Error> {
+        match self {
+            Basis::Rules(rules) => Study::new(mesh, rules, domain),
+            Basis::Hnuss(rule, outside) => Study::hybrid(mesh, *rule, *outside, domain),
+        }
+    }
+}
+
 /// A problem on the first levels of a mesh.
 #[derive(Clone, Debug)]
 pub struct Request {
@@ -113,7 +162,7 @@ fn refused(error: eigenring_iga::Error, path: &Path) -> Error {
 fn prepared<'a>(
     path: &Path,
     mesh: &Mesh,
-    rules: &'a Rules,
+    basis: &'a Basis,
     domain: Domain,
     levels: usize,
     progress: &dyn Progress,
@@ -125,11 +174,17 @@ fn prepared<'a>(
             accepted: format!("1 to {MOST_LEVELS}"),
         });
     }
-    let study = Study::new(mesh, rules, domain).map_err(|error| refused(error, path))?;
+    let study = basis.study(mesh, domain).map_err(|error| refused(error, path))?;
     if study.steps > 0 {
         progress.note(&format!(
             "{} Catmull-Clark steps come first: they separate extraordinary vertices",
             study.steps
+        ));
+    }
+    if let Some(first) = study.simple().first() {
+        progress.note(&format!(
+            "{} vertices, of which {first} is the first, have the simple rule",
+            study.simple().len()
         ));
     }
     Ok(study)
@@ -151,7 +206,7 @@ pub fn study<E: From<Error>>(
     request: &Request,
     path: &Path,
     mesh: &Mesh,
-    rules: &Rules,
+    basis: &Basis,
     fits: impl Fn(f64) -> Result<(), E>,
     progress: &dyn Progress,
 ) -> Result<Answer, E> {
@@ -167,7 +222,7 @@ pub fn study<E: From<Error>>(
         }
         .into());
     };
-    let study = prepared(path, mesh, rules, request.domain, request.levels, progress)?;
+    let study = prepared(path, mesh, basis, request.domain, request.levels, progress)?;
     fits(study.bytes(request.levels - 1, request.options.solver))?;
     let level = |level: usize| study.level(level, request.task.problem(), &u, &request.options);
     let outcomes = (0..request.levels).map(level).collect::<Result<_, _>>();
@@ -177,7 +232,7 @@ pub fn study<E: From<Error>>(
             ..request.clone()
         },
         path: path.to_owned(),
-        scheme: rules.definition().name(),
+        scheme: basis.name(),
         outcomes: outcomes.map_err(|error| refused(error, path))?,
         predicted: study.predicted(request.task.problem(), request.options.ends),
     })

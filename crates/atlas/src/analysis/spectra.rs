@@ -1,11 +1,11 @@
 //! Eigenvalues of the Laplacian on the levels of a mesh.
 
-use super::{ends_name, prepared, refused};
+use super::{Basis, ends_name, prepared, refused};
 use crate::error::Error;
 use crate::progress::Progress;
 use crate::table::Table;
 use eigenring_iga::{Domain, Membrane, Options, Solver, Spectrum};
-use eigenring_surface::{Mesh, Rules};
+use eigenring_surface::Mesh;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -41,18 +41,18 @@ pub fn spectra<E: From<Error>>(
     request: &Membranes,
     path: &Path,
     mesh: &Mesh,
-    rules: &Rules,
+    basis: &Basis,
     fits: impl Fn(f64) -> Result<(), E>,
     progress: &dyn Progress,
 ) -> Result<Spectra, E> {
-    let study = prepared(path, mesh, rules, request.domain, request.levels, progress)?;
+    let study = prepared(path, mesh, basis, request.domain, request.levels, progress)?;
     fits(study.bytes(request.levels - 1, Some(Solver::Cholesky)))?;
     let level = |level: usize| study.spectrum(level, request.membrane, request.count, &request.options);
     let spectra = (0..request.levels).map(level).collect::<Result<_, _>>();
     Ok(Spectra {
         request: request.clone(),
         path: path.to_owned(),
-        scheme: rules.definition().name(),
+        scheme: basis.name(),
         spectra: spectra.map_err(|error| refused(error, path))?,
     })
 }

@@ -2,6 +2,7 @@
 
 use super::UNSTORED;
 use super::plot::{DPI, PictureFormat};
+use super::subdivide::IntervalArgs;
 use crate::args::{self, OneScheme};
 use crate::error::Error;
 use crate::files::{self, Written};
@@ -12,19 +13,20 @@ use crate::threads::Threads;
 use crate::valences::OptionalValences;
 use clap::{Args, Subcommand, ValueEnum};
 use eigenring_atlas::analysis::studies::{StudyEntry, find};
-use eigenring_atlas::analysis::{Membranes, Request, Task as Kind, rates, spectra, study};
+use eigenring_atlas::analysis::{Basis, Membranes, Request, Task as Kind, rates, spectra, study};
 use eigenring_atlas::meshes;
 use eigenring_atlas::progress::each;
+use eigenring_atlas::schemes::SchemeName;
 use eigenring_atlas::table::{Format, pretty};
 use eigenring_iga::{Dirichlet, Domain, Ends, Membrane, Options, Solver};
-use eigenring_surface::{Mesh, Rules};
+use eigenring_surface::Mesh;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Solve on the basis functions of a subdivision scheme, and measure the errors.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  eigenring make fan -N 6 -o fan6.obj\n  eigenring iga poisson fan6.obj --scheme lambda:lambda=0.39 --solution exp --levels 4\n  eigenring iga patch-test fan6.obj --scheme catmull-clark --tail scaled\n  eigenring iga spectrum cube.obj --scheme catmull-clark --bc closed --sphere --count 9\n  eigenring iga rates --scheme catmull-clark -N 3..12"
+    after_help = "Examples:\n  eigenring make fan -N 6 -o fan6.obj\n  eigenring iga poisson fan6.obj --scheme lambda:lambda=0.39 --solution exp --levels 4\n  eigenring iga patch-test fan6.obj --scheme catmull-clark --tail scaled\n  eigenring iga spectrum cube.obj --scheme catmull-clark --bc closed --sphere --count 9\n  eigenring iga patch-test fan6.obj --scheme hnuss --depth 24\n  eigenring iga rates --scheme catmull-clark -N 3..12"
 )]
 pub struct Arguments {
     #[command(subcommand)]
@@ -115,6 +117,8 @@ struct Setting {
     file: PathBuf,
     #[command(flatten)]
     scheme: OneScheme,
+    #[command(flatten)]
+    intervals: IntervalArgs,
     /// The number of levels, 1 to 10
     #[arg(long, default_value = "4")]
     levels: usize,
@@ -202,13 +206,22 @@ impl Setting {
         }
     }
 
-    /// The mesh with its rules.
-    fn surface(&self) -> Result<(Mesh, Rules), Error> {
-        let (mesh, notices) = meshes::read_surface(&self.file)?;
-        notices.iter().for_each(|notice| note(notice));
-        let scheme = self.scheme.clone().name()?.into();
-        let rules = meshes::rules(&scheme, &mesh, &[], &args::tuner())?;
-        Ok((mesh, rules))
+    /// The mesh with what makes its spaces.
+    fn surface(&self) -> Result<(Mesh, Basis), Error> {
+        let scheme = self.scheme.clone().name()?;
+        let mesh = if matches!(scheme, SchemeName::NonUniform(_)) {
+            let (mut mesh, notices) = meshes::read_with_intervals(&self.file)?;
+            notices.iter().for_each(|notice| note(notice));
+            self.intervals.read(&mut mesh)?;
+            mesh
+        } else {
+            self.intervals.refuse()?;
+            let (mesh, notices) = meshes::read_surface(&self.file)?;
+            notices.iter().for_each(|notice| note(notice));
+            mesh
+        };
+        let basis = Basis::new(scheme, &mesh, self.intervals.outside(), &args::tuner())?;
+        Ok((mesh, basis))
     }
 
     fn fits(&self, bytes: f64) -> Result<(), Error> {
@@ -291,9 +304,9 @@ impl Solve {
                 ..setting.options()?
             },
         };
-        let (mesh, rules) = setting.surface()?;
+        let (mesh, basis) = setting.surface()?;
         let fits = |bytes: f64| setting.fits(bytes);
-        let answer = study(&request, &setting.file, &mesh, &rules, fits, &Terminal)?;
+        let answer = study(&request, &setting.file, &mesh, &basis, fits, &Terminal)?;
         let text = match format {
             Format::Json => pretty(&answer.json()),
             format => answer.table().render(format),
@@ -322,9 +335,9 @@ impl Eigenvalues {
             levels: setting.levels,
             options: setting.options()?,
         };
-        let (mesh, rules) = setting.surface()?;
+        let (mesh, basis) = setting.surface()?;
         let fits = |bytes: f64| setting.fits(bytes);
-        let answer = spectra(&request, &setting.file, &mesh, &rules, fits, &Terminal)?;
+        let answer = spectra(&request, &setting.file, &mesh, &basis, fits, &Terminal)?;
         let text = match format {
             Format::Json => pretty(&answer.json()),
             format => answer.table().render(format),

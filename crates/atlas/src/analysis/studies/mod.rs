@@ -7,15 +7,15 @@
 mod chart;
 mod eigenvalues;
 
-use super::ends_name;
+use super::{Basis, ends_name};
 use crate::error::Error;
 use crate::figures::Drawing;
-use crate::meshes;
 use crate::schemes::{SchemeName, Tuner};
 use crate::table::{Cell, Table};
 use chart::{chart, figure, spelled};
 use eigenring_figure::{Axis, Chart, Colour, Marker, Style};
 use eigenring_iga::{Domain, Ends, Norms, Options, Problem, Study, solution};
+use eigenring_nonuniform::Outside;
 use eigenring_surface::{Mesh, shapes};
 use eigenvalues::spectra;
 
@@ -129,9 +129,8 @@ fn with<T>(
     work: impl FnOnce(&Study<'_>) -> Result<T, eigenring_iga::Error>,
 ) -> Result<T, Error> {
     let scheme: SchemeName = spec.parse()?;
-    let rules = meshes::rules(&scheme.into(), mesh, &[], tuner)?;
-    let study = Study::new(mesh, &rules, domain)?;
-    Ok(work(&study)?)
+    let basis = Basis::new(scheme, mesh, Outside::Error, tuner)?;
+    Ok(work(&basis.study(mesh, domain)?)?)
 }
 
 impl Setting<'_> {
