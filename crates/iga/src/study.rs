@@ -9,7 +9,7 @@ use crate::space::{Ends, Space};
 use crate::sparse::Sparse;
 use crate::spectrum::{Membrane, Spectrum, spectrum};
 use crate::{Error, MOST_ANNULI, hybrid, predicted};
-use eigenring_nonuniform::{FirstLevel, Outside, Refinement, Scheme};
+use eigenring_nonuniform::{FirstLevel, Outside, Place, Refinement, Scheme};
 use eigenring_scheme::{Definition, Spec};
 use eigenring_surface::{Boundary, Mesh, Refiner, Rules};
 use std::collections::BTreeSet;
@@ -125,7 +125,7 @@ impl<'a> Study<'a> {
     }
 
     /// Vertices with the simple rule of HNUSS for want of an eigen-polyhedron.
-    pub fn simple(&self) -> &[u32] {
+    pub fn simple(&self) -> &[Place] {
         match &self.levels {
             Levels::Uniform(..) => &[],
             Levels::Hybrid(refinement) => &refinement.simple,

@@ -7,12 +7,14 @@ use crate::scheme::Scheme;
 use crate::solve::Asked;
 use crate::values;
 use crate::work;
+use eigenring_atlas::analysis::Basis;
 use eigenring_atlas::curvature::{centre_table, curvatures, euler_of_smooth, summary};
 use eigenring_atlas::memory::excess;
 use eigenring_atlas::on_mesh::OnMesh;
 use eigenring_atlas::render::{Settings, Show, Subject, render};
 use eigenring_atlas::schemes::{SchemeName, Tuner};
 use eigenring_atlas::{files, limits, meshes};
+use eigenring_nonuniform::Outside;
 use eigenring_surface::{self as surface, Boundary, Place, Point3, Refiner, Rules, Surface, features};
 use numpy::{PyArray1, PyArrayDyn};
 use pyo3::prelude::*;
@@ -467,8 +469,13 @@ impl Mesh {
                 progress: reporter,
                 ..Tuner::default()
             };
-            let rules = meshes::rules(&name, &mesh, &[], &tuner)?;
-            question.answer(&mesh, &rules, |bytes| check(bytes, &format!("{levels} levels")), reporter)
+            let basis = Basis::new(&name, &mesh, Outside::Error, &tuner)?;
+            question.answer(
+                &mesh,
+                &basis,
+                |bytes| check(bytes, &format!("{levels} levels")),
+                reporter,
+            )
         })?;
         Ok(values::object(py, &json)?)
     }

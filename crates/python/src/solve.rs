@@ -1,10 +1,10 @@
 //! Model problems by the words in which Python asks for them, which are those of the command.
 
 use crate::failure::Failure;
-use eigenring_atlas::analysis::{Membranes, Request, Task, spectra, study};
+use eigenring_atlas::analysis::{Basis, Membranes, Request, Task, spectra, study};
 use eigenring_atlas::progress::Progress;
 use eigenring_iga::{Dirichlet, Domain, Ends, Membrane, Options, Solver};
-use eigenring_surface::{Mesh, Rules};
+use eigenring_surface::Mesh;
 use serde_json::Value;
 use std::path::Path;
 
@@ -89,10 +89,17 @@ impl Asked<'_> {
         let methods = [("cholesky", Solver::Cholesky), ("multigrid", Solver::Multigrid)];
         let data = [("projection", Dirichlet::Projection), ("nitsche", Dirichlet::Nitsche)];
         let tails = [("drop", false), ("scaled", true)];
-        let solver = self.solver.map(|solver| named("solver", solver, &methods)).transpose()?;
+        let solver = self
+            .solver
+            .map(|solver| named("solver", solver, &methods))
+            .transpose()?;
         let dirichlet = self.dirichlet.map(|word| named("dirichlet", word, &data)).transpose()?;
         let options = Options {
-            ends: named("boundary", self.boundary, &[("open", Ends::Open), ("natural", Ends::Natural)])?,
+            ends: named(
+                "boundary",
+                self.boundary,
+                &[("open", Ends::Open), ("natural", Ends::Natural)],
+            )?,
             dirichlet: dirichlet.unwrap_or(Dirichlet::Projection),
             gauss: self.gauss,
             depth: self.depth,
@@ -118,7 +125,10 @@ impl Asked<'_> {
             }));
         }
         if self.count.is_some() {
-            return Err(Failure::usage("count has no meaning here", "count with problem='spectrum'"));
+            return Err(Failure::usage(
+                "count has no meaning here",
+                "count with problem='spectrum'",
+            ));
         }
         let task = match (problem, bc.unwrap_or(Condition::Dirichlet)) {
             (Problem::Poisson, Condition::Dirichlet) => Task::Poisson,
@@ -158,14 +168,14 @@ impl Question {
     pub fn answer(
         &self,
         mesh: &Mesh,
-        rules: &Rules,
+        basis: &Basis,
         fits: impl Fn(f64) -> Result<(), Failure>,
         progress: &dyn Progress,
     ) -> Result<Value, Failure> {
         let path = Path::new(MESH);
         Ok(match self {
-            Question::Solve(request) => study(request, path, mesh, rules, fits, progress)?.json(),
-            Question::Eigenvalues(request) => spectra(request, path, mesh, rules, fits, progress)?.json(),
+            Question::Solve(request) => study(request, path, mesh, basis, fits, progress)?.json(),
+            Question::Eigenvalues(request) => spectra(request, path, mesh, basis, fits, progress)?.json(),
         })
     }
 }

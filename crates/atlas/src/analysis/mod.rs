@@ -8,6 +8,7 @@ pub use spectra::{Membranes, Spectra, spectra};
 use crate::compare::compare;
 use crate::error::Error;
 use crate::meshes;
+use crate::on_mesh::OnMesh;
 use crate::progress::Progress;
 use crate::schemes::{SchemeName, Tuner};
 use crate::table::Table;
@@ -82,8 +83,8 @@ impl Basis {
     ///
     /// # Errors
     /// Those of [`meshes::rules`]; other schemes with knot intervals, which are evaluated nowhere.
-    pub fn new(scheme: SchemeName, mesh: &Mesh, outside: Outside, tuner: &Tuner<'_>) -> Result<Self, Error> {
-        match scheme {
+    pub fn new(scheme: &OnMesh, mesh: &Mesh, outside: Outside, tuner: &Tuner<'_>) -> Result<Self, Error> {
+        match scheme.name {
             SchemeName::NonUniform(Scheme::Hnuss(rule)) => Ok(Basis::Hnuss(rule, outside)),
             SchemeName::NonUniform(other) => Err(Error::Usage {
                 message: format!(
@@ -91,7 +92,7 @@ impl Basis {
                 ),
                 accepted: "hnuss[:simple|printed] and bicubic schemes with one-ring rules".to_owned(),
             }),
-            _ => Ok(Basis::Rules(Box::new(meshes::rules(&scheme.into(), mesh, &[], tuner)?))),
+            _ => Ok(Basis::Rules(Box::new(meshes::rules(scheme, mesh, &[], tuner)?))),
         }
     }
 
@@ -181,10 +182,11 @@ fn prepared<'a>(
             study.steps
         ));
     }
-    if let Some(first) = study.simple().first() {
+    if !study.simple().is_empty() {
+        let list: Vec<String> = study.simple().iter().map(ToString::to_string).collect();
+        let list = list.join(", ");
         progress.note(&format!(
-            "{} vertices, of which {first} is the first, have the simple rule",
-            study.simple().len()
+            "the simple rule was taken for want of an eigen-polyhedron at {list}"
         ));
     }
     Ok(study)

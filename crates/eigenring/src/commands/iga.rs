@@ -220,7 +220,7 @@ impl Setting {
             notices.iter().for_each(|notice| note(notice));
             mesh
         };
-        let basis = Basis::new(scheme, &mesh, self.intervals.outside(), &args::tuner())?;
+        let basis = Basis::new(&scheme.into(), &mesh, self.intervals.outside(), &args::tuner())?;
         Ok((mesh, basis))
     }
 

@@ -129,7 +129,7 @@ fn with<T>(
     work: impl FnOnce(&Study<'_>) -> Result<T, eigenring_iga::Error>,
 ) -> Result<T, Error> {
     let scheme: SchemeName = spec.parse()?;
-    let basis = Basis::new(scheme, mesh, Outside::Error, tuner)?;
+    let basis = Basis::new(&scheme.into(), mesh, Outside::Error, tuner)?;
     Ok(work(&basis.study(mesh, domain)?)?)
 }
 
