@@ -33,9 +33,16 @@ fn inward(net: &Net, layers: &[(u32, Corner)]) -> Inward {
     layers.iter().map(of).collect()
 }
 
-/// The net with two layers of ghosts, of which the first has points; their layers, the number of points with
-/// the first, positions.
-fn with_ghosts(net: &Net, points: &[[f64; 3]]) -> Result<(Net, Vec<(u32, Corner)>, Vec<Point3<f64>>, Inward), Error> {
+/// A net with two layers of ghosts.
+struct Ghosts {
+    net: Net,
+    /// The first layer, and the points with it.
+    layers: Vec<(u32, Corner)>,
+    points: Vec<Point3<f64>>,
+    inward: Inward,
+}
+
+fn with_ghosts(net: &Net, points: &[[f64; 3]]) -> Result<Ghosts, Error> {
     let mesh = net.with_points(points.iter().map(|p| Point3::from(*p)).collect(), None);
     let (first, layers) = extended(&mesh, net.topology())?;
     let inward = inward(net, &layers);
@@ -60,7 +67,12 @@ fn with_ghosts(net: &Net, points: &[[f64; 3]]) -> Result<(Net, Vec<(u32, Corner)
         }
     }
     second.features.knots = knots;
-    Ok((Net::new(&second)?, layers, first.points().to_vec(), inward))
+    Ok(Ghosts {
+        net: Net::new(&second)?,
+        layers,
+        points: first.points().to_vec(),
+        inward,
+    })
 }
 
 /// The space over a hybrid net that has been halved so often; `None` if boundaries are too close to each other
@@ -73,7 +85,12 @@ pub(crate) fn space(
 ) -> Result<Option<Space>, Error> {
     let own = hybrid.net();
     let coarse = own.topology();
-    let (net, layers, full, inward) = with_ghosts(own, points)?;
+    let Ghosts {
+        net,
+        layers,
+        points: full,
+        inward,
+    } = with_ghosts(own, points)?;
     let extended = HybridNet::known(net);
     let topology = extended.net().topology();
     let mut boundary = vec![false; full.len()];

@@ -74,9 +74,9 @@ pub(crate) struct Space {
     /// Control points of the boundary.
     pub boundary: Vec<bool>,
     /// Coefficients in unknowns.
-    pub transform: Vec<Vec<(u32, f64)>>,
+    pub transform: Rows,
     /// Unknowns in coefficients, as far as the ends have them.
-    pub inverse: Vec<Vec<(u32, f64)>>,
+    pub inverse: Rows,
     /// The ghosts of boundary vertices.
     pub layers: Vec<(u32, Corner)>,
     pub edges: Vec<Edge>,
@@ -144,6 +144,9 @@ pub(crate) enum Corner {
     Two([u32; 3], [u32; 3]),
 }
 
+/// Weights by rows.
+pub(crate) type Rows = Vec<Vec<(u32, f64)>>;
+
 /// What equal intervals have for [`across`].
 pub(crate) const EQUAL: f64 = 2.0;
 
@@ -175,12 +178,8 @@ fn back_across(ends: Ends, r: f64) -> [[f64; 3]; 3] {
 /// Coefficients in unknowns by the relation across the boundary, or the other way round; `None` where two
 /// corners of the domain are neighbours. `line` is the relation at a vertex towards each of its inner
 /// neighbours.
-fn transform(
-    count: usize,
-    layers: &[(u32, Corner)],
-    line: impl Fn(u32, usize) -> [[f64; 3]; 3],
-) -> Option<Vec<Vec<(u32, f64)>>> {
-    let mut rows: Vec<Vec<(u32, f64)>> = (0..count as u32).map(|i| vec![(i, 1.0)]).collect();
+fn transform(count: usize, layers: &[(u32, Corner)], line: impl Fn(u32, usize) -> [[f64; 3]; 3]) -> Option<Rows> {
+    let mut rows: Rows = (0..count as u32).map(|i| vec![(i, 1.0)]).collect();
     let kept = |row: Vec<(u32, f64)>| row.into_iter().filter(|(_, w)| *w != 0.0).collect();
     let single = |(v, corner): &(u32, Corner)| match corner {
         Corner::One(_, ghost) => Some((*v, *ghost)),
@@ -217,7 +216,7 @@ pub(crate) fn transforms(
     layers: &[(u32, Corner)],
     ends: Ends,
     ratio: impl Fn(u32, usize) -> f64,
-) -> Option<[Vec<Vec<(u32, f64)>>; 2]> {
+) -> Option<[Rows; 2]> {
     let forth = transform(count, layers, |v, direction| across(ends, ratio(v, direction)))?;
     let back = transform(count, layers, |v, direction| back_across(ends, ratio(v, direction)))?;
     Some([forth, back])
