@@ -1,9 +1,9 @@
 //! The space of one level of HNUSS: the functions of all points of its hybrid net.
 //!
-//! Elements are the faces with an area; strips of no width carry none, but their points have functions. Regular
-//! elements have knot intervals of their own, those at extraordinary faces consist of pieces of many levels
-//! ([`Element`]). A second layer of ghosts, which no function of an element reads, carries the intervals that
-//! the boundary mirrors.
+//! Elements are the faces with an area; strips of no width carry none, but their points have functions.
+//! Regular elements have knot intervals of their own, those at extraordinary faces consist of pieces of many
+//! levels ([`Element`]). A second layer of ghosts, which no function of an element reads, carries the
+//! intervals that the boundary mirrors.
 
 use crate::Error;
 use crate::space::{Cell, Corner, Edge, Ends, Kind, Space, extended, transforms};
@@ -75,8 +75,8 @@ fn with_ghosts(net: &Net, points: &[[f64; 3]]) -> Result<Ghosts, Error> {
     })
 }
 
-/// The space over a hybrid net that has been halved so often; `None` if boundaries are too close to each other
-/// or to an extraordinary face.
+/// The space over a hybrid net that has been halved so often; `None` if boundaries are too close to each
+/// other or to an extraordinary face.
 pub(crate) fn space(
     hybrid: &HybridNet,
     points: &[[f64; 3]],

@@ -150,9 +150,10 @@ pub(crate) type Rows = Vec<Vec<(u32, f64)>>;
 /// What equal intervals have for [`across`].
 pub(crate) const EQUAL: f64 = 2.0;
 
-/// Control points -1, 0, 1 across the boundary in unknowns -1, 0, 1. With the intervals d and e of the first two
-/// faces inside, which the ghosts mirror, `r = (d + e)/d`: control points are the values of the polar form at
-/// `(-d-e, -d, 0)`, `(-d, 0, d)`, `(0, d, d+e)`, unknowns those at `(0, 0, 0)`, `(0, 0, d)` and the same last.
+/// Control points -1, 0, 1 across the boundary in unknowns -1, 0, 1. With the intervals d and e of the first
+/// two faces inside, which the ghosts mirror, `r = (d + e)/d`: control points are the values of the polar
+/// form at `(-d-e, -d, 0)`, `(-d, 0, d)`, `(0, d, d+e)`, unknowns those at `(0, 0, 0)`, `(0, 0, d)` and the
+/// same last.
 fn across(ends: Ends, r: f64) -> [[f64; 3]; 3] {
     match ends {
         Ends::Open => {
@@ -209,8 +210,8 @@ fn transform(count: usize, layers: &[(u32, Corner)], line: impl Fn(u32, usize) -
     Some(rows)
 }
 
-/// Coefficients in unknowns and unknowns in coefficients, see [`transform`]. `ratio` is that of [`across`] at a
-/// vertex towards each of its inner neighbours.
+/// Coefficients in unknowns and unknowns in coefficients, see [`transform`]. `ratio` is that of [`across`] at
+/// a vertex towards each of its inner neighbours.
 pub(crate) fn transforms(
     count: usize,
     layers: &[(u32, Corner)],
@@ -357,7 +358,8 @@ impl Space {
         }))
     }
 
-    /// The tables of all kinds of faces; `scaled` tells whether the last annulus stands for those that follow.
+    /// The tables of all kinds of faces; `scaled` tells whether the last annulus stands for those that
+    /// follow.
     pub fn tables(&self, order: usize, depth: Depth, scaled: bool) -> BTreeMap<Kind, Table> {
         let of = |around: &Around| match depth {
             Depth::Area => around.depth(),

@@ -92,8 +92,8 @@ impl<'a> Study<'a> {
         Err(Error::TooClose { steps: MOST_STEPS })
     }
 
-    /// A mesh with knot intervals under HNUSS: level 0 is its hybrid net. Where the rule of the first level does
-    /// not exist, `outside` says what is done.
+    /// A mesh with knot intervals under HNUSS: level 0 is its hybrid net. Where the rule of the first level
+    /// does not exist, `outside` says what is done.
     ///
     /// # Errors
     /// Those of [`Refinement::new`]; weights, and zero intervals across a boundary.

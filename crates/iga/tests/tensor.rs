@@ -9,7 +9,8 @@ use eigenring_surface::features::edge;
 use eigenring_surface::{Mesh, Point3};
 use faer::{Mat, Side};
 
-/// The values of all cubic functions on an interval with these breaks, open at its ends, and their derivatives.
+/// The values of all cubic functions on an interval with these breaks, open at its ends, and their
+/// derivatives.
 fn functions(breaks: &[f64], x: f64) -> [Vec<f64>; 2] {
     let n = breaks.len() - 1;
     let knots: Vec<f64> = (0..n + 7).map(|k| breaks[k.clamp(3, n + 3) - 3]).collect();
@@ -89,8 +90,8 @@ fn compare(found: &Spectrum, expected: Vec<f64>, what: &str) {
     }
 }
 
-/// A rectangle with unequal knot intervals. Points are where splines are linear in the parameter: the means of
-/// three knots, mirrored at the ends.
+/// A rectangle with unequal knot intervals. Points are where splines are linear in the parameter: the means
+/// of three knots, mirrored at the ends.
 #[test]
 fn a_rectangle_with_knot_intervals_has_the_eigenvalues_of_tensor_splines() {
     let breaks: [&[f64]; 2] = [&[0.0, 1.0, 4.0, 4.5, 6.0], &[0.0, 0.7, 1.0, 3.0]];

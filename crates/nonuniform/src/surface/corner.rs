@@ -162,9 +162,10 @@ impl Corner {
         row
     }
 
-    /// The pieces of the element in sector 0 down to a depth, and the weights of its corner, over the unknowns
-    /// whose `rows` make the points of the net. Derivatives use `S - 1 l^T` in place of the matrix S of the
-    /// levels, l the weights of the limit: rows of `S^m` tend to l, and their differences would lose digits.
+    /// The pieces of the element in sector 0 down to a depth, and the weights of its corner, over the
+    /// unknowns whose `rows` make the points of the net. Derivatives use `S - 1 l^T` in place of the matrix S
+    /// of the levels, l the weights of the limit: rows of `S^m` tend to l, and their differences would lose
+    /// digits.
     pub fn pieces(&self, rows: &Matrix<f64>, depth: usize) -> (Vec<Piece>, Vec<f64>) {
         let columns = rows.columns();
         let limit = Matrix::from_rows(vec![self.limit_row()], self.vertices.len());

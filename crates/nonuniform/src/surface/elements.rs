@@ -73,7 +73,8 @@ impl Element {
     }
 
     /// Numbers that two elements share only if their pieces are the same but for the size of intervals: the
-    /// ratios of intervals of a regular one, those of the spokes of one after two halvings. `None` for others.
+    /// ratios of intervals of a regular one, those of the spokes of one after two halvings. `None` for
+    /// others.
     pub fn key(&self) -> Option<Vec<u64>> {
         let ratios = |of: &[f64], to: f64| -> Vec<u64> { of.iter().map(|d| (d / to).to_bits()).collect() };
         match (&self.pieces[..], &self.corners[..]) {
@@ -212,7 +213,8 @@ impl HybridNet {
     /// sectors' first three.
     ///
     /// # Errors
-    /// [`Error::Range`] for a face that is none, or at the end of the net; those of [`NGon::new`](crate::NGon::new).
+    /// [`Error::Range`] for a face that is none, or at the end of the net; those of
+    /// [`NGon::new`](crate::NGon::new).
     pub fn element(&self, face: u32, halvings: usize) -> Result<(Vec<u32>, Element), Error> {
         let topology = self.net().topology();
         if face as usize >= topology.face_count() || !self.is_element(face) {
