@@ -1,7 +1,7 @@
 //! Refined meshes against Boehm insertion on regular grids and against the prototype's nets.
 
 use crate::common::{Net, Regular, cases};
-use eigenring_nonuniform::{FirstLevel, Outside, Refinement, Scheme, refined};
+use eigenring_nonuniform::{FirstLevel, Limits, Outside, Refinement, Scheme, refined};
 use eigenring_surface::features::edge;
 use eigenring_surface::{Mesh, Point3};
 
@@ -200,6 +200,55 @@ fn intervals_of_a_ratio_of_a_million_lose_few_digits() {
                 let nearest = found.points().iter().map(gap).fold(f64::INFINITY, f64::min);
                 let tolerance = if ratio > 100.0 { 1e-11 } else { 1e-13 };
                 assert!(nearest < tolerance, "{scheme} {ratio}: {nearest:e}");
+            }
+        }
+    }
+}
+
+/// A quarter of a ring of radii 1 to 2 as a rational patch: intervals 0, 1, 0 both ways. Limits on its arcs
+/// have these radii, at every level and under every scheme.
+#[test]
+fn a_quarter_ring_stays_round() {
+    let (root, third) = (0.5_f64.sqrt(), |a: f64, b: f64| (a + 2.0 * b) / 3.0);
+    // an arc of degree 2 with its degree raised, in homogeneous coordinates
+    let arc = [[1.0, 0.0, 1.0], [root, root, root], [0.0, 1.0, 1.0]];
+    let between = |end: usize| [0, 1, 2].map(|k| third(arc[end][k], arc[1][k]));
+    let arc = [arc[0], between(0), between(2), arc[2]];
+    let radii = [1.0, 4.0 / 3.0, 5.0 / 3.0, 2.0];
+    let lifted: Vec<[f64; 4]> = radii
+        .iter()
+        .flat_map(|r| arc.map(|[x, y, w]| [r * x, r * y, 0.0, w]))
+        .collect();
+    let at = |i: u32, j: u32| 4 * j + i;
+    let faces = (0..9).map(|k| (k % 3, k / 3));
+    let faces = faces.map(|(i, j)| [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
+    let mut mesh = Mesh::new(vec![Point3::origin(); 16], faces).unwrap();
+    for (i, d) in [(0, 0.0), (1, 1.0), (2, 0.0)] {
+        mesh.features.knots.insert(edge(at(i, 0), at(i + 1, 0)), d);
+        mesh.features.knots.insert(edge(at(0, i), at(0, i + 1)), d);
+    }
+    for scheme in [Scheme::Nurss, Scheme::EigenPolyhedron, HNUSS] {
+        let mut refinement = Refinement::new(&mesh, scheme, Outside::Error).unwrap();
+        for level in 1..=4 {
+            refinement.refine().unwrap();
+            let points = refinement.apply(&lifted).unwrap();
+            let limits = Limits::new(&refinement).unwrap().of(&points).unwrap();
+            let net = refinement.net();
+            let on_arc = |r: f64| -> usize {
+                let vertices = 0..net.topology().vertex_count() as u32;
+                let round = vertices.filter(|&vertex| {
+                    let [x, y, _, w] = limits[vertex as usize][0];
+                    net.is_on_boundary(vertex) && ((x / w).hypot(y / w) - r).abs() < 1e-14
+                });
+                round.count()
+            };
+            // the interval of width 1 has become 2^level
+            for r in [1.0, 2.0] {
+                assert!(
+                    on_arc(r) > 1 << level,
+                    "{scheme:?} level {level}, radius {r}: {}",
+                    on_arc(r)
+                );
             }
         }
     }
