@@ -9,6 +9,7 @@
 //! the weights `l_j w^(-k s) / N` in the whole matrix, and those of fixed points as they are. Without a
 //! rotation the one block is the matrix.
 
+mod half_cell;
 mod rotation;
 
 pub use rotation::{Rotation, find};
@@ -42,6 +43,8 @@ pub struct Given {
     blocks: Vec<Block<f64>>,
     spectrum: Spectrum,
     defect: f64,
+    /// Of a scheme beside a boundary or crease where that is.
+    around: Option<half_cell::Around>,
 }
 
 /// Weights of the points, or why there are none.
@@ -118,6 +121,7 @@ impl Given {
                 eigenvalues: Vec::new(),
             },
             defect,
+            around: None,
         };
         given.spectrum = Spectrum::of_blocks(&given.blocks, given.order(), given.rounding())?;
         Ok(given)
@@ -163,11 +167,14 @@ impl Given {
 
     /// What was found, and what the list of eigenvalues does not say by itself.
     pub fn notes(&self) -> Vec<String> {
-        let mut notes = vec![match &self.rotation {
-            Some((rotation, _)) => format!("found {}", rotation.words()),
-            None => "no rotation was found: the eigenvalues are those of the whole matrix, without Fourier indices"
-                .to_owned(),
-        }];
+        let mut notes = match (&self.rotation, &self.around) {
+            (_, Some(around)) => around.notes(),
+            (Some((rotation, _)), _) => vec![format!("found {}", rotation.words())],
+            (None, None) => vec![
+                "no rotation was found: the eigenvalues are those of the whole matrix, without Fourier indices"
+                    .to_owned(),
+            ],
+        };
         if let Some((_, distance)) = &self.rotation
             && *distance > 0.0
         {
@@ -236,16 +243,17 @@ impl Given {
     }
 
     fn head(&self) -> Record {
-        let spectrum = &self.spectrum;
+        let (spectrum, around) = (&self.spectrum, self.around.as_ref());
         let signed = |e: &Eigenvalue| if e.value.im == 0.0 { e.value.re } else { e.modulus() };
         Record::default()
             .with("scheme", self.name.as_str())
-            .with("corner", "closed")
-            .with("valence", self.order())
-            .with("lattice", Cell::Empty)
-            .with("rings", Cell::Empty)
-            .with("closed_rings", Cell::Empty)
-            .with("outer", Cell::Empty)
+            .with("corner", around.map_or("closed", |around| around.corner.as_str()))
+            .with("valence", around.map_or(self.order(), |around| Some(around.faces)))
+            .with("lattice", around.map_or(Cell::Empty, |_| "face".into()))
+            .with("rings", around.map(|around| around.rings))
+            .with("level", around.map(|around| around.level[0]))
+            .with("closed_rings", around.map(|around| around.closed_rings))
+            .with("outer", around.map(|around| around.outer))
             .with("points", self.matrix.rows())
             .with("subdominant", spectrum.subdominant().map(signed))
             .with("subsubdominant", spectrum.subsubdominant().map(signed))
@@ -316,13 +324,17 @@ impl Given {
     pub fn text(&self) -> String {
         let (position, tangents) = (self.position(), self.tangents());
         let mut text = format!(
-            "{}{}\n{}\nlimit stencils (points counted from 0, as in the file)\n{}",
+            "{}{}\n{}\nlimit stencils ({})\n{}",
             self.head().text(),
             self.notes()
                 .iter()
                 .map(|text| format!("note: {text}\n"))
                 .collect::<String>(),
             self.eigenvalues().render(Format::Text),
+            match self.around {
+                Some(_) => "x along spoke i and y along spoke i+1 in half steps; 0 on the rims",
+                None => "points counted from 0, as in the file",
+            },
             self.limit_stencils().render(Format::Text)
         );
         for error in [position.err(), tangents.err()].into_iter().flatten() {
@@ -333,6 +345,9 @@ impl Given {
 
     /// Where each point is: its sector and orbit, none for fixed points.
     fn points(&self) -> Table {
+        if let Some(around) = &self.around {
+            return around.points();
+        }
         let mut places: Vec<Option<(usize, usize)>> = vec![None; self.matrix.rows()];
         if let Some((rotation, _)) = &self.rotation {
             for (index, orbit) in rotation.orbits.iter().enumerate() {

@@ -16,11 +16,12 @@ use eigenring_atlas::schemes::SchemeName;
 use eigenring_atlas::spectrum::Analysis;
 use eigenring_atlas::sweep::{self, Sweep, spectra};
 use eigenring_atlas::table::{Format, pretty};
+use eigenring_scheme::{Centre, Shape};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-const EXAMPLES: &str = "Examples:\n  eigenring spectrum --scheme catmull-clark -N 5\n  eigenring spectrum --scheme tension:order=6,u0=2 -N 7 --level 0 --format json\n  eigenring spectrum --scheme catmull-clark --fan 3           a boundary vertex with three faces\n  eigenring spectrum --scheme stam:order=6 --dart -N 5 --cs 1\n  eigenring spectrum --scheme catmull-clark --knots 1,2,1,3 --next 1,1,1,1\n  eigenring spectrum --scheme file:my.toml --sweep a=1..2:20 -N 5\n  eigenring spectrum --matrix S.csv                           a matrix of your own";
+const EXAMPLES: &str = "Examples:\n  eigenring spectrum --scheme catmull-clark -N 5\n  eigenring spectrum --scheme tension:order=6,u0=2 -N 7 --level 0 --format json\n  eigenring spectrum --scheme catmull-clark --fan 3           a boundary vertex with three faces\n  eigenring spectrum --scheme stam:order=5 --fan 2 --corner\n  eigenring spectrum --scheme stam:order=6 --dart -N 5 --cs 1\n  eigenring spectrum --scheme catmull-clark --knots 1,2,1,3 --next 1,1,1,1\n  eigenring spectrum --scheme file:my.toml --sweep a=1..2:20 -N 5\n  eigenring spectrum --matrix S.csv                           a matrix of your own";
 
 /// List the eigenvalues of a local subdivision matrix with their Fourier indices and multiplicities.
 ///
@@ -113,9 +114,17 @@ impl Arguments {
         let answer = match (&scheme, &self.matrix) {
             (Some(scheme), _) => {
                 let (shape, steps) = self.corner.shape(self.valence.valence, scheme)?;
-                let corner = shape.corner(scheme.centre()?, steps)?;
-                let net = [self.rings, self.level];
-                Answer::Scheme(Analysis::of_name(scheme, &corner, net, &args::tuner())?)
+                let (centre, net) = (scheme.centre()?, [self.rings, self.level]);
+                match shape {
+                    // around the half cell of a dual scheme there is no lattice of sectors
+                    Shape::Fan { faces, corner } if centre == Centre::Face && steps.is_none() => {
+                        Answer::Matrix(Given::of_half_cell(scheme, faces, corner, net)?)
+                    }
+                    shape => {
+                        let corner = shape.corner(centre, steps)?;
+                        Answer::Scheme(Analysis::of_name(scheme, &corner, net, &args::tuner())?)
+                    }
+                }
             }
             (None, Some(path)) => {
                 self.corner.refuse("for a matrix")?;

@@ -28,10 +28,11 @@ pub struct Piece {
     bases: Vec<Basis>,
     /// `-w^2`, 0, `w^2`.
     square: f64,
-    /// How many terms the series have; none if quadrature is more accurate.
-    terms: usize,
-    /// Row j holds the j-th derivatives of the functions at the middle.
-    derivatives: Vec<Vec<f64>>,
+    /// What the terms of the two series are divided by, `(n-1) n` for n = k-2+2m and k-1+2m, as factors.
+    factors: Vec<[f64; 2]>,
+    /// Row after row of k numbers: the j-th derivatives of the functions at the middle. None if quadrature
+    /// is more accurate than the series.
+    derivatives: Vec<f64>,
     /// `1 / j!`.
     inverse_factorials: Vec<f64>,
 }
@@ -66,7 +67,7 @@ impl Piece {
             order,
             bases,
             square,
-            terms: 0,
+            factors: Vec::new(),
             derivatives: Vec::new(),
             inverse_factorials,
         };
@@ -78,8 +79,10 @@ impl Piece {
                 size *= w * w / 4.0 / ((n - 1) * n) as f64;
                 terms += 1;
             }
-            piece.terms = terms;
-            piece.derivatives = (0..order).map(|j| derivative(order, tension, j, 0.5)).collect();
+            let factor = |n: usize| 1.0 / ((n - 1) * n) as f64;
+            let factors = |m: usize| [order - 2 + 2 * m, order - 1 + 2 * m].map(factor);
+            piece.factors = (1..terms).map(factors).collect();
+            piece.derivatives = (0..order).flat_map(|j| derivative(order, tension, j, 0.5)).collect();
         }
         Ok(piece)
     }
@@ -102,9 +105,23 @@ impl Piece {
     /// # Ok::<(), eigenring_spline::Error>(())
     /// ```
     pub fn at(&self, f: f64) -> Values {
-        let k = self.order;
-        let mut out = [[0.0; MAX_ORDER]; 3];
-        if self.terms == 0 {
+        self.evaluated(self.order, f)
+    }
+
+    /// The same for an order that is known when compiling, for loops that run a million times.
+    ///
+    /// # Panics
+    /// If K is not the order.
+    #[inline]
+    pub fn of_order<const K: usize>(&self, f: f64) -> [[f64; K]; 3] {
+        assert_eq!(K, self.order, "the order of the piece");
+        self.evaluated(K, f)
+    }
+
+    #[inline(always)]
+    fn evaluated<const M: usize>(&self, k: usize, f: f64) -> [[f64; M]; 3] {
+        let mut out = [[0.0; M]; 3];
+        if self.derivatives.is_empty() {
             let tension = self.bases[0].tension();
             for (j, out) in out.iter_mut().enumerate() {
                 let values = match self.bases.get(j) {
@@ -119,26 +136,23 @@ impl Piece {
         // monomials over factorials, with room for the indices -2 and -1
         let mut powers = [0.0; MAX_ORDER + 2];
         let mut power = 1.0;
-        for (j, inverse) in self.inverse_factorials.iter().enumerate() {
-            powers[j + 2] = power * inverse;
+        for (to, inverse) in powers[2..].iter_mut().zip(&self.inverse_factorials) {
+            *to = power * inverse;
             power *= x;
         }
-        let series = |j: usize| {
-            let step = self.square * x * x;
-            let mut sum = 1.0;
-            for m in (1..self.terms).rev() {
-                let n = j + 2 * m;
-                sum = 1.0 + sum * step / ((n - 1) * n) as f64;
-            }
-            powers[j + 2] * sum
-        };
-        let (last, before) = (series(k - 1), series(k - 2));
+        let step = self.square * x * x;
+        let (mut before, mut last) = (1.0, 1.0);
+        for [first, second] in self.factors.iter().rev() {
+            before = 1.0 + before * step * first;
+            last = 1.0 + last * step * second;
+        }
+        let (before, last) = (powers[k] * before, powers[k + 1] * last);
         // phi_(j-2) = x^(j-2) / (j-2)! -+ w^2 phi_j
         let lower = [powers[k - 2] + self.square * before, powers[k - 1] + self.square * last];
         let ends = [[before, last], [lower[1], before], [lower[0], lower[1]]];
         for (order, (out, ends)) in out.iter_mut().zip(ends).enumerate() {
             let out = &mut out[..k];
-            for (j, row) in self.derivatives.iter().enumerate() {
+            for (j, row) in self.derivatives.chunks_exact(k).enumerate() {
                 let factor = match j {
                     _ if j == k - 1 => ends[1],
                     _ if j == k - 2 => ends[0],

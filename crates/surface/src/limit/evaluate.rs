@@ -4,10 +4,12 @@ pub use super::centre::Undefined;
 use super::centre::{Centre, Context, Stage, missing, quartered};
 use super::ladder::Ladder;
 use super::local::{Local, Source};
-use super::patch::{Jet3, OnCrease, Patch};
+use super::numbers::ByNumber;
+use super::patch::{Jet3, Lanes, OnCrease, Patch, vector};
 use super::{Place, Surface};
 use crate::Error;
 use nalgebra::{Point3, Vector3};
+use std::collections::hash_map::Entry;
 use std::sync::Arc;
 
 /// What the surface is like at a point.
@@ -70,6 +72,20 @@ pub struct Sample {
     pub kind: Kind,
 }
 
+impl Sample {
+    /// A sample that is yet to be filled in.
+    pub(super) const ORIGIN: Sample = Sample {
+        position: Point3::new(0.0, 0.0, 0.0),
+        first: None,
+        second: None,
+        normal: None,
+        gauss: None,
+        mean: None,
+        principal: None,
+        kind: Kind::Regular,
+    };
+}
+
 /// Curvatures of a jet.
 pub(crate) struct Curvature {
     pub normal: Vector3<f64>,
@@ -86,26 +102,41 @@ pub(crate) fn curvature(first: &[Vector3<f64>; 2], second: &[Vector3<f64>; 3]) -
     if !(area > 0.0 && area.is_finite()) {
         return None;
     }
-    let normal = cross / area;
+    // two quotients for all: division is what takes time here
+    let per_area = 1.0 / area;
+    let normal = cross * per_area;
     let [l, m, n] = [0, 1, 2].map(|i| normal.dot(&second[i]));
     let (e, f, g) = (xs.dot(xs), xs.dot(xt), xt.dot(xt));
-    let square = area * area;
-    let gauss = (l * n - m * m) / square;
-    let mean = (e * n - 2.0 * f * m + g * l) / (2.0 * square);
+    let per_square = per_area * per_area;
+    let gauss = (l * n - m * m) * per_square;
+    let mean = (e * n - 2.0 * f * m + g * l) * (0.5 * per_square);
     // the second form in the orthonormal basis of the first tangent and its normal in the plane
     let long = e.sqrt();
-    let (along, beside) = (f / long, area / long);
-    let a = l / e;
-    let mixed = m / long;
-    let b = (mixed - along * a) / beside;
-    let c = (n - 2.0 * along * mixed + along * along * a) / (beside * beside);
-    let spread = ((a - c) / 2.0).hypot(b);
+    let per_long = 1.0 / long;
+    let along = f * per_long;
+    let a = l * per_long * per_long;
+    let mixed = m * per_long;
+    let per_beside = long * per_area;
+    let b = (mixed - along * a) * per_beside;
+    let c = (n - 2.0 * along * mixed + along * along * a) * (per_beside * per_beside);
+    let spread = length((a - c) / 2.0, b);
     Some(Curvature {
         normal,
         gauss,
         mean,
         principal: [(a + c) / 2.0 - spread, (a + c) / 2.0 + spread],
     })
+}
+
+/// The length of a vector. The root of the sum of squares is as good as `hypot` where squares are no extremes.
+#[inline]
+fn length(x: f64, y: f64) -> f64 {
+    let square = x * x + y * y;
+    if (1e-280..1e280).contains(&square) {
+        square.sqrt()
+    } else {
+        x.hypot(y)
+    }
 }
 
 /// A part of the face.
@@ -120,8 +151,11 @@ enum Node {
 pub struct Evaluator<'s, 'r> {
     surface: &'s Surface<'r>,
     face: u32,
-    /// By the half-edge of the base from whose corner the part is counted.
-    roots: std::collections::HashMap<u32, Node>,
+    /// The half-edges of the face: the first, and how many.
+    first: u32,
+    size: u32,
+    /// By the half-edge of the base from whose corner the part is counted, from the first one of the face.
+    roots: ByNumber<Node>,
 }
 
 /// No part of a face needs as many levels to be isolated: sharpness below 10 ends after ten.
@@ -129,10 +163,14 @@ const DEEPEST: usize = 48;
 
 impl<'s, 'r> Evaluator<'s, 'r> {
     pub(super) fn new(surface: &'s Surface<'r>, face: u32) -> Self {
+        let starts = surface.control.starts();
+        let first = starts[face as usize];
         Evaluator {
             surface,
             face,
-            roots: std::collections::HashMap::new(),
+            first,
+            size: starts[face as usize + 1] - first,
+            roots: ByNumber::default(),
         }
     }
 
@@ -141,28 +179,46 @@ impl<'s, 'r> Evaluator<'s, 'r> {
     /// # Errors
     /// [`Error::Range`] for parameters outside.
     pub fn at(&mut self, place: Place) -> Result<Sample, Error> {
+        let mut sample = Sample::ORIGIN;
+        self.fill(place, &mut sample)?;
+        Ok(sample)
+    }
+
+    /// Writes the point at a place of this face.
+    #[inline]
+    pub(super) fn fill(&mut self, place: Place, sample: &mut Sample) -> Result<(), Error> {
         debug_assert_eq!(place.face, self.face);
-        let (half, s, t, scale) = self.located(place)?;
+        let (half, mut s, mut t, mut scale) = self.located(place)?;
         let surface = self.surface;
-        let node = match self.roots.entry(half) {
-            std::collections::hash_map::Entry::Occupied(entry) => entry.into_mut(),
-            std::collections::hash_map::Entry::Vacant(entry) => {
-                let source = Source {
-                    mesh: &surface.base,
-                    topology: &surface.topology,
-                    ends: surface.ends,
-                    soft: surface.soft,
-                    net: surface.net.as_ref(),
-                    full: surface.kernel.full_steps(),
-                };
-                let own = |id: u32| surface.rules.vertices().any(|v| v == id).then_some(id);
-                let none = surface.rules.vertices().next().is_none();
-                let rings = surface.kernel.reach();
-                let local = source.part(half, rings, |id| if none { None } else { own(id) });
-                entry.insert(node(surface, local, surface.lift)?)
-            }
+        let mut at = match self.roots.entry(u64::from(half)) {
+            Entry::Occupied(entry) => entry.into_mut(),
+            Entry::Vacant(entry) => entry.insert(root(surface, half)?),
         };
-        descend(surface, node, s, t, scale, surface.lift)
+        let mut level = surface.lift;
+        loop {
+            match at {
+                Node::Regular(patch) => {
+                    regular(&patch.jet(s, t), scale, patch.on_crease(s, t), sample);
+                    return Ok(());
+                }
+                Node::Centre(corner, centre, ladder) => {
+                    return beside(surface.context(), *corner, centre, ladder, [s, t, scale], sample);
+                }
+                Node::Inner(local, refined, children) => {
+                    let (quarter, fine_s, fine_t) = quartered(s, t);
+                    (s, t) = (fine_s, fine_t);
+                    scale *= 2.0;
+                    level += 1;
+                    at = match &mut children[quarter] {
+                        Some(child) => child,
+                        empty => {
+                            let part = local.child(refined, quarter as u32, surface.kernel.reach());
+                            empty.insert(Box::new(node(surface, part.ok_or_else(missing)?, level)?))
+                        }
+                    };
+                }
+            }
+        }
     }
 
     /// Whether a place of this face is there.
@@ -172,8 +228,7 @@ impl<'s, 'r> Evaluator<'s, 'r> {
 
     /// The half-edge of the base that a place counts from, the parameters there, and how much finer they are.
     fn located(&self, place: Place) -> Result<(u32, f64, f64, f64), Error> {
-        let control = &self.surface.control;
-        let size = control.face(self.face as usize).len() as u32;
+        let (first, size) = (self.first, self.size);
         let range = |what, given: String, accepted: String| Err(Error::Range { what, given, accepted });
         for (what, value) in [("s", place.s), ("t", place.t)] {
             if !(0.0..=1.0).contains(&value) {
@@ -189,7 +244,6 @@ impl<'s, 'r> Evaluator<'s, 'r> {
         if place.corner > 3 {
             return range("corner", place.corner.to_string(), "0 to 3".to_owned());
         }
-        let first = control.starts()[self.face as usize];
         let (mut s, mut t, mut scale) = (place.s, place.t, 1.0);
         // a half-edge of the control mesh is a face after a level
         let (mut half, mut levels) = if size == 4 {
@@ -206,7 +260,8 @@ impl<'s, 'r> Evaluator<'s, 'r> {
             let quarter = quarter as u32;
             let corner = half / 4 * 4 + (half + quarter) % 4;
             let corner = if levels + 1 == self.surface.lift {
-                half_of(control, half, quarter)
+                // a quad of the control mesh
+                first + (half - first + quarter) % 4
             } else {
                 corner
             };
@@ -216,11 +271,22 @@ impl<'s, 'r> Evaluator<'s, 'r> {
     }
 }
 
-/// The half-edge of a quad of the control mesh so many corners further on.
-fn half_of(control: &crate::Mesh, half: u32, further: u32) -> u32 {
-    let face = control.starts().partition_point(|&start| start <= half) - 1;
-    let start = control.starts()[face];
-    start + (half - start + further) % 4
+/// The part of the base counted from a half-edge.
+#[cold]
+fn root(surface: &Surface<'_>, half: u32) -> Result<Node, Error> {
+    let source = Source {
+        mesh: &surface.base,
+        topology: &surface.topology,
+        ends: surface.ends,
+        soft: surface.soft,
+        net: surface.net.as_ref(),
+        full: surface.kernel.full_steps(),
+    };
+    let own = |id: u32| surface.rules.vertices().any(|v| v == id).then_some(id);
+    let none = surface.rules.vertices().next().is_none();
+    let rings = surface.kernel.reach();
+    let local = source.part(half, rings, |id| if none { None } else { own(id) });
+    node(surface, local, surface.lift)
 }
 
 /// What a part of a level is.
@@ -305,38 +371,16 @@ fn centre(surface: &Surface<'_>, local: &Local, level: usize) -> Result<Option<A
     Ok(Some(centre))
 }
 
-fn descend(surface: &Surface<'_>, at: &mut Node, s: f64, t: f64, scale: f64, level: usize) -> Result<Sample, Error> {
-    match at {
-        Node::Regular(patch) => Ok(regular(&patch.jet(s, t), scale, patch.on_crease(s, t))),
-        Node::Centre(corner, centre, ladder) => beside(surface.context(), *corner, centre, ladder, s, t, scale),
-        Node::Inner(local, refined, children) => {
-            let (quarter, s, t) = quartered(s, t);
-            let child = match &mut children[quarter] {
-                Some(child) => child,
-                empty => {
-                    let part = local
-                        .child(refined, quarter as u32, surface.kernel.reach())
-                        .ok_or_else(missing)?;
-                    empty.insert(Box::new(node(surface, part, level + 1)?))
-                }
-            };
-            descend(surface, child, s, t, 2.0 * scale, level + 1)
-        }
-    }
-}
-
-fn vector(x: &[f64; 3]) -> Vector3<f64> {
-    Vector3::new(x[0], x[1], x[2])
-}
-
 #[inline]
-fn regular(jet: &Jet3, scale: f64, on_crease: Option<OnCrease>) -> Sample {
+fn regular(jet: &Jet3, scale: f64, on_crease: Option<OnCrease>, sample: &mut Sample) {
     let [position, xs, xt, xss, xst, xtt] = jet;
     let first = [vector(xs), vector(xt)].map(|d| d * scale);
     let second = [vector(xss), vector(xst), vector(xtt)].map(|d| d * (scale * scale));
     let curved = curvature(&first, &second);
-    let sample = smooth(Point3::from(*position), first, second, curved);
-    on_crease.map_or(sample, |crease| without_second(sample, crease))
+    smooth(Point3::from(vector(position)), first, second, curved, sample);
+    if let Some(crease) = on_crease {
+        without_second(sample, crease);
+    }
 }
 
 /// A place with derivatives, whose curvature is not defined where they are degenerate.
@@ -346,38 +390,33 @@ fn smooth(
     first: [Vector3<f64>; 2],
     second: [Vector3<f64>; 3],
     curved: Option<Curvature>,
-) -> Sample {
-    Sample {
-        position,
-        first: Some(first),
-        second: Some(second),
-        normal: curved.as_ref().map(|c| c.normal),
-        gauss: curved.as_ref().map(|c| c.gauss),
-        mean: curved.as_ref().map(|c| c.mean),
-        principal: curved.as_ref().map(|c| c.principal),
-        kind: if curved.is_some() {
-            Kind::Regular
-        } else {
-            Kind::Undefined(Undefined::Degenerate)
-        },
-    }
+    sample: &mut Sample,
+) {
+    sample.position = position;
+    sample.first = Some(first);
+    sample.second = Some(second);
+    sample.normal = curved.as_ref().map(|c| c.normal);
+    sample.gauss = curved.as_ref().map(|c| c.gauss);
+    sample.mean = curved.as_ref().map(|c| c.mean);
+    sample.principal = curved.as_ref().map(|c| c.principal);
+    sample.kind = if curved.is_some() {
+        Kind::Regular
+    } else {
+        Kind::Undefined(Undefined::Degenerate)
+    };
 }
 
 /// A place on a crease that acts in some smoothing steps only, from second derivatives beside it.
-fn without_second(sample: Sample, crease: OnCrease) -> Sample {
-    let Some(gauss) = sample.gauss.filter(|_| crease.grows) else {
-        return Sample { second: None, ..sample };
-    };
-    Sample {
-        second: None,
-        gauss: None,
-        mean: None,
-        principal: None,
-        kind: Kind::Unbounded {
+fn without_second(sample: &mut Sample, crease: OnCrease) {
+    sample.second = None;
+    if let Some(gauss) = sample.gauss.filter(|_| crease.grows) {
+        sample.gauss = None;
+        sample.mean = None;
+        sample.principal = None;
+        sample.kind = Kind::Unbounded {
             exponent: crease.power,
             signs: [gauss.signum(); 2],
-        },
-        ..sample
+        };
     }
 }
 
@@ -396,13 +435,13 @@ fn beside(
     corner: u32,
     centre: &Centre,
     ladder: &mut Ladder,
-    s: f64,
-    t: f64,
-    scale: f64,
-) -> Result<Sample, Error> {
+    [s, t, scale]: [f64; 3],
+    sample: &mut Sample,
+) -> Result<(), Error> {
     let (mut s, mut t) = turned(corner, s, t);
     if s == 0.0 && t == 0.0 {
-        return at_centre(context, centre, ladder);
+        *sample = at_centre(context, centre, ladder)?;
+        return Ok(());
     }
     let mut m = 0;
     while s < 0.5 && t < 0.5 {
@@ -413,7 +452,7 @@ fn beside(
     let (jet, finer, on_crease) = ladder.jet(context, centre, m, quarter, s, t)?;
     let curved = scaled_curvature(&jet, ladder, m);
     let shrunk = ladder.lambda.powi(m as i32);
-    let real = |x: &[f64; 3]| -> Vector3<f64> {
+    let real = |x: &Lanes| -> Vector3<f64> {
         let [e1, e2, e3] = &ladder.frame;
         (e1 * x[0] + e2 * x[1] + e3 * (x[2] * shrunk)) * shrunk
     };
@@ -427,14 +466,17 @@ fn beside(
         2 => ([-xs, -xt], [xss, xst, xtt]),
         _ => ([xt, -xs], [xtt, -xst, xss]),
     };
-    let sample = smooth(ladder.position + real(&jet[0]), first, second, curved);
-    Ok(on_crease.map_or(sample, |crease| without_second(sample, crease)))
+    smooth(ladder.position + real(&jet[0]), first, second, curved, sample);
+    if let Some(crease) = on_crease {
+        without_second(sample, crease);
+    }
+    Ok(())
 }
 
 /// The curvature of a jet in the frame of a ladder: of the surface `(x, y, lambda^m z)`, scaled back.
 pub(super) fn scaled_curvature(jet: &Jet3, ladder: &Ladder, m: usize) -> Option<Curvature> {
     let shrunk = ladder.lambda.powi(m as i32);
-    let flat = |x: &[f64; 3]| Vector3::new(x[0], x[1], x[2] * shrunk);
+    let flat = |x: &Lanes| Vector3::new(x[0], x[1], x[2] * shrunk);
     let first = [flat(&jet[1]), flat(&jet[2])];
     let second = [flat(&jet[3]), flat(&jet[4]), flat(&jet[5])];
     let curved = curvature(&first, &second)?;

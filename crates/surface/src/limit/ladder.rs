@@ -1,11 +1,11 @@
 //! The control points of a face beside a centre, split into limit, tangents and rest, level by level.
 
 use super::centre::{Centre, Context, Undefined};
+use super::numbers::ByNumber;
 use super::patch::{Jet3, OnCrease, Patch};
 use crate::Error;
 use crate::refine::Row;
 use nalgebra::{Point3, Vector3};
-use std::collections::HashMap;
 
 /// The control points of a face beside a centre, level by level.
 #[derive(Debug)]
@@ -23,7 +23,8 @@ pub(crate) struct Ladder {
     ratio: f64,
     /// T of each level, in the frame.
     rest: Vec<Vec<[f64; 3]>>,
-    patches: HashMap<(usize, u64), Patch>,
+    /// The pieces met, by level and quarter.
+    patches: ByNumber<Patch>,
     /// The points after the level from which a piece was made last.
     refined: Option<(usize, Vec<[f64; 3]>)>,
 }
@@ -79,7 +80,7 @@ impl Ladder {
             plane,
             ratio,
             rest: Vec::new(),
-            patches: HashMap::new(),
+            patches: ByNumber::default(),
             refined: None,
         };
         ladder.project(centre, 0, &mut first);
@@ -164,7 +165,8 @@ impl Ladder {
     ) -> Result<(Jet3, f64, Option<OnCrease>), Error> {
         let stage = centre.stage(m);
         let path = stage.locate(context, quarter, s, t)?;
-        let key = (m, path.name);
+        // names are short: a digit of two bits for each of few cuts
+        let key = ((m as u64) << 32) | path.name;
         if let Some(patch) = self.patches.get(&key) {
             return Ok((patch.jet(path.s, path.t), path.finer, patch.on_crease(path.s, path.t)));
         }

@@ -12,16 +12,19 @@
 mod centre;
 mod dual;
 mod evaluate;
+mod half_cells;
 mod kernel;
 mod ladder;
 mod local;
 mod net;
+mod numbers;
 mod partial;
 mod patch;
 mod vertices;
 
 pub(crate) use dual::DualNet;
 pub use evaluate::{Evaluator, Kind, Sample, Undefined};
+pub use half_cells::HalfCell;
 pub use vertices::{Rule, VertexFan};
 
 use crate::active::Ends;
@@ -182,9 +185,9 @@ impl<'a> Surface<'a> {
     /// The points at places of any order. Those of one face are evaluated together.
     ///
     /// # Errors
-    /// As [`Surface::at`], for the first place that is refused.
+    /// As [`Surface::at`], for the first place that is refused, face by face.
     pub fn at_all(&self, places: &[Place]) -> Result<Vec<Sample>, Error> {
-        // places by faces, as grids are, need no second copy of all samples
+        // places by faces, as grids are, are written once and in turn
         if places.is_sorted_by_key(|place| place.face) {
             let mut samples = Vec::with_capacity(places.len());
             for group in places.chunk_by(|a, b| a.face == b.face) {
@@ -195,16 +198,35 @@ impl<'a> Surface<'a> {
             }
             return Ok(samples);
         }
-        let mut order: Vec<u32> = (0..places.len() as u32).collect();
-        order.sort_by_key(|&index| places[index as usize].face);
-        let mut samples = vec![None; places.len()];
-        for group in order.chunk_by(|&a, &b| places[a as usize].face == places[b as usize].face) {
-            let mut evaluator = self.evaluator(places[group[0] as usize].face)?;
-            for &index in group {
-                samples[index as usize] = Some(evaluator.at(places[index as usize])?);
+        let faces = self.control.face_count();
+        if let Some(place) = places.iter().find(|place| place.face as usize >= faces) {
+            return Err(self.no_face(place.face));
+        }
+        // windows of places stay in the cache while their faces take turns; not where that is too many turns
+        let window = if FEW * faces <= WINDOW { WINDOW } else { places.len() };
+        let mut samples = Vec::with_capacity(places.len());
+        let mut evaluators: Vec<Option<Evaluator<'_, 'a>>> = (0..faces).map(|_| None).collect();
+        let (mut ends, mut order) = (vec![0; faces + 1], Vec::new());
+        for places in places.chunks(window) {
+            let begin = samples.len();
+            samples.resize(begin + places.len(), Sample::ORIGIN);
+            let samples = &mut samples[begin..];
+            by_face(places, &mut ends, &mut order);
+            for (face, kept) in evaluators.iter_mut().enumerate() {
+                let group = &order[ends[face] as usize..ends[face + 1] as usize];
+                if group.is_empty() {
+                    continue;
+                }
+                let evaluator = kept.get_or_insert_with(|| Evaluator::new(self, face as u32));
+                for &(index, place) in group {
+                    evaluator.fill(place, &mut samples[index as usize])?;
+                }
+                if window > WINDOW {
+                    *kept = None;
+                }
             }
         }
-        Ok(samples.into_iter().flatten().collect())
+        Ok(samples)
     }
 
     /// Whether a place is there.
@@ -221,13 +243,17 @@ impl<'a> Surface<'a> {
     /// [`Error::Range`] for a face that is not there.
     pub fn evaluator(&self, face: u32) -> Result<Evaluator<'_, 'a>, Error> {
         if face as usize >= self.control.face_count() {
-            return Err(Error::Range {
-                what: "face",
-                given: face.to_string(),
-                accepted: format!("0 to {}", self.control.face_count() - 1),
-            });
+            return Err(self.no_face(face));
         }
         Ok(Evaluator::new(self, face))
+    }
+
+    fn no_face(&self, face: u32) -> Error {
+        Error::Range {
+            what: "face",
+            given: face.to_string(),
+            accepted: format!("0 to {}", self.control.face_count() - 1),
+        }
     }
 
     /// The weights of the control points in the point at a place, by their numbers; they add up to 1. Found
@@ -268,6 +294,32 @@ impl<'a> Surface<'a> {
     /// equal cells.
     pub fn grid(&self, n: usize) -> Vec<Place> {
         grid(&self.control, n)
+    }
+}
+
+/// So many places, 10 MB of samples, are evaluated face by face before the next.
+const WINDOW: usize = 32768;
+
+/// Fewer places of a face in a window are not worth a turn.
+const FEW: usize = 8;
+
+/// Sorts places with their numbers by their faces, by counting: those of a face are
+/// `order[ends[face]..ends[face + 1]]`.
+fn by_face(places: &[Place], ends: &mut [u32], order: &mut Vec<(u32, Place)>) {
+    ends.fill(0);
+    places.iter().for_each(|place| ends[place.face as usize] += 1);
+    let mut sum = 0;
+    for end in ends.iter_mut() {
+        sum += *end;
+        *end = sum;
+    }
+    order.clear();
+    order.extend((0..).zip(places.iter().copied()));
+    // backwards, so that the places of a face keep their order and ends become beginnings
+    for (index, &place) in (0..places.len() as u32).zip(places).rev() {
+        let at = &mut ends[place.face as usize];
+        *at -= 1;
+        order[*at as usize] = (index, place);
     }
 }
 

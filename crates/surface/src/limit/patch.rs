@@ -29,18 +29,21 @@ pub(crate) fn basis(t: f64) -> [[f64; 4]; 3] {
     ]
 }
 
+/// Three coordinates and a zero, so that whole lanes of a processor are added.
+pub(crate) type Lanes = [f64; 4];
+
 /// Value, first derivatives by s and t, second by ss, st, tt.
-pub(crate) type Jet3 = [[f64; 3]; 6];
+pub(crate) type Jet3 = [Lanes; 6];
 
 /// A piece of the surface.
 #[derive(Debug)]
 pub(crate) enum Patch {
     /// Of bicubic B-splines.
-    Cubic(Box<[[f64; 3]; 16]>),
+    Cubic(Box<[Lanes; 16]>),
     /// Of another order or tension.
-    Tensor(Arc<Piece>, Vec<[f64; 3]>),
+    Tensor(Arc<Piece>, Vec<Lanes>),
     /// Beside creases that act in some smoothing steps only: the functions along s and t.
-    Partial([Arc<Across>; 2], Vec<[f64; 3]>),
+    Partial([Arc<Across>; 2], Vec<Lanes>),
 }
 
 /// What second derivatives do on a crease that acts in some smoothing steps only.
@@ -63,7 +66,7 @@ impl Patch {
     pub fn of(control: &Control, points: &[[f64; 3]], kernel: &Kernel, level: usize) -> Result<Self, Error> {
         let Control { rows, lines } = control;
         let net = rows.iter().map(|row| {
-            let mut sum = [0.0; 3];
+            let mut sum = [0.0; 4];
             for &(at, w) in row {
                 (0..3).for_each(|k| sum[k] += w * points[at as usize][k]);
             }
@@ -75,7 +78,7 @@ impl Patch {
             return Ok(Patch::Partial(axes, net.collect()));
         }
         if kernel.is_cubic(level) {
-            let mut control = Box::new([[0.0; 3]; 16]);
+            let mut control = Box::new([[0.0; 4]; 16]);
             control.iter_mut().zip(net).for_each(|(at, point)| *at = point);
             return Ok(Patch::Cubic(control));
         }
@@ -86,11 +89,17 @@ impl Patch {
     #[inline]
     pub fn jet(&self, s: f64, t: f64) -> Jet3 {
         match self {
-            Patch::Cubic(control) => jet(&control[..], &basis(s), &basis(t)),
-            Patch::Tensor(piece, control) => {
-                let (in_s, in_t) = (piece.at(s), piece.at(t));
-                tensor(piece.order(), control, &in_s, &in_t)
-            }
+            Patch::Cubic(control) => tensor(4, &control[..], &basis(s), &basis(t)),
+            // usual orders with loops of known length
+            Patch::Tensor(piece, control) => match piece.order() {
+                3 => of_order::<3>(piece, control, s, t),
+                4 => of_order::<4>(piece, control, s, t),
+                5 => of_order::<5>(piece, control, s, t),
+                6 => of_order::<6>(piece, control, s, t),
+                7 => of_order::<7>(piece, control, s, t),
+                8 => of_order::<8>(piece, control, s, t),
+                order => tensor(order, control, &piece.at(s), &piece.at(t)),
+            },
             Patch::Partial([along_s, along_t], control) => {
                 tensor(control.len().isqrt(), control, &along_s.at(s), &along_t.at(t))
             }
@@ -111,12 +120,13 @@ impl Patch {
 /// Normal parts of second derivatives below this part of their terms are rounding.
 const ROUNDING: f64 = 1e-11;
 
-fn on_crease(axes: &[Arc<Across>; 2], control: &[[f64; 3]], s: f64, t: f64) -> Option<OnCrease> {
+fn on_crease(axes: &[Arc<Across>; 2], control: &[Lanes], s: f64, t: f64) -> Option<OnCrease> {
     let powers = [axes[0].power(s), axes[1].power(t)];
     let power = powers.into_iter().flatten().reduce(f64::min)?;
     let order = control.len().isqrt();
     let (in_s, in_t) = (axes[0].at(s), axes[1].at(t));
-    let [xs, xt] = [1, 2].map(|i| Vector3::from(tensor(order, control, &in_s, &in_t)[i]));
+    let jet = tensor(order, control, &in_s, &in_t);
+    let [xs, xt] = [1, 2].map(|i| vector(&jet[i]));
     let normal = xs.cross(&xt);
     let mut grows = false;
     for (axis, _) in powers.iter().enumerate().filter(|(_, power)| power.is_some()) {
@@ -125,7 +135,7 @@ fn on_crease(axes: &[Arc<Across>; 2], control: &[[f64; 3]], s: f64, t: f64) -> O
         for (row, j) in control.chunks_exact(order).zip(0..) {
             for (point, i) in row.iter().zip(0..) {
                 // constants have no derivatives: of differences, so that a far origin costs no digits
-                let away = Vector3::from(*point) - Vector3::from(control[0]);
+                let away = vector(point) - vector(&control[0]);
                 let weight = in_s[by_s][i] * in_t[by_t][j];
                 sum += weight * away.dot(&normal);
                 size += weight.abs() * away.norm() * normal.norm();
@@ -136,20 +146,26 @@ fn on_crease(axes: &[Arc<Across>; 2], control: &[[f64; 3]], s: f64, t: f64) -> O
     Some(OnCrease { power, grows })
 }
 
-/// The jet of a bicubic piece whose control points run along s first.
+/// The first three coordinates.
 #[inline]
-fn jet(control: &[[f64; 3]], in_s: &[[f64; 4]; 3], in_t: &[[f64; 4]; 3]) -> Jet3 {
-    tensor(4, control, in_s, in_t)
+pub(crate) fn vector(x: &Lanes) -> Vector3<f64> {
+    Vector3::new(x[0], x[1], x[2])
 }
 
+fn of_order<const K: usize>(piece: &Piece, control: &[Lanes], s: f64, t: f64) -> Jet3 {
+    tensor(K, control, &piece.of_order::<K>(s), &piece.of_order::<K>(t))
+}
+
+/// The jet of a piece whose control points run along s first.
 #[inline(always)]
-fn tensor<const M: usize>(order: usize, control: &[[f64; 3]], in_s: &[[f64; M]; 3], in_t: &[[f64; M]; 3]) -> Jet3 {
-    let mut jet = [[0.0; 3]; 6];
+fn tensor<const M: usize>(order: usize, control: &[Lanes], in_s: &[[f64; M]; 3], in_t: &[[f64; M]; 3]) -> Jet3 {
+    let mut jet = [[0.0; 4]; 6];
     for (row, j) in control.chunks_exact(order).zip(0..) {
-        let mut sums = [[0.0; 3]; 3];
+        let mut sums = [[0.0; 4]; 3];
         for (point, i) in row.iter().zip(0..) {
             for (sum, weights) in sums.iter_mut().zip(in_s) {
-                sum.iter_mut().zip(point).for_each(|(sum, x)| *sum += weights[i] * x);
+                let weight: f64 = weights[i];
+                sum.iter_mut().zip(point).for_each(|(sum, x)| *sum += weight * x);
             }
         }
         let parts = [(0, 0), (0, 1), (1, 0), (0, 2), (1, 1), (2, 0)];
