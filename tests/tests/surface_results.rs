@@ -22,7 +22,7 @@ fn catmull_clark(cosine: f64) -> f64 {
 #[test]
 fn total_curvature_approaches_that_of_gauss_and_bonnet() {
     let rows = rows("surfaces/total-curvature.csv");
-    assert_eq!(rows.len(), 6);
+    assert_eq!(rows.len(), 12);
     for row in rows {
         let number = |key: &str| row[key].parse::<f64>().unwrap();
         let expected = number("two_pi_chi");

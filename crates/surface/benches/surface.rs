@@ -132,7 +132,8 @@ fn evaluation(criterion: &mut Criterion<ProcessorTime>) {
             bench.iter(|| surface.at_all(black_box(&places)).expect("places are on the surface"));
         });
     }
-    // what comes before: matrices of all levels around irregular vertices of each valence, then parts of faces
+    // what comes before: matrices of all levels around irregular vertices of each valence, then parts of
+    // faces
     let first = [
         ("valence", places_beside(&control, true)),
         ("corner", places_beside(&control, false)),

@@ -215,6 +215,9 @@ fn totals(tuner: &Tuner<'_>) -> Result<(String, Vec<u8>), Error> {
         ("cube", shapes::cube()),
         ("propeller", shapes::propeller(5)),
         ("triple-torus", shapes::triple_torus()),
+        ("spot", modelled(include_str!("../../data/meshes/spot.obj"))?),
+        ("fish", modelled(include_str!("../../data/meshes/fish.obj"))?),
+        ("penguin", modelled(include_str!("../../data/meshes/penguin.obj"))?),
     ] {
         for scheme in ["catmull-clark", "lambda:optimal"] {
             let item = Item::new("", scheme, &mesh)?;
@@ -233,4 +236,10 @@ fn totals(tuner: &Tuner<'_>) -> Result<(String, Vec<u8>), Error> {
         }
     }
     Ok(table("total-curvature", &rows))
+}
+
+/// A mesh that somebody modelled: `data/meshes/README.md`.
+fn modelled(text: &str) -> Result<Mesh, Error> {
+    let file = eigenring_surface::io::read(text.as_bytes(), eigenring_surface::io::Format::Obj)?;
+    Ok(file.surface()?)
 }

@@ -30,8 +30,8 @@ pub(super) struct Around {
 
 impl Given {
     /// The level of a scheme of odd order around a half cell of so many faces, with the corner in front or
-    /// without, on so many rings: by default the limit level, the smallest closed set, and one ring more where
-    /// the eigenvalues outside of it are not strictly below the subsubdominant one.
+    /// without, on so many rings: by default the limit level, the smallest closed set, and one ring more
+    /// where the eigenvalues outside of it are not strictly below the subsubdominant one.
     ///
     /// # Errors
     /// [`Error::Range`] for rings that are not closed and for matrices that are too large; those of the

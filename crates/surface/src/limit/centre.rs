@@ -9,15 +9,17 @@ use super::kernel::Kernel;
 use super::local::Local;
 use super::net::{Control, control};
 use super::patch::Patch;
+use super::rotation::Rotation;
 use crate::Error;
 use crate::refine::{Row, Step, add};
 use crate::rules::Rules;
 use eigenring_scheme::{Complex, Table};
 use eigenring_spectral::{Block, Matrix};
+use std::collections::HashMap;
 use std::sync::{Arc, OnceLock};
 
-/// Local matrices beyond this size are not decomposed: the positions of their centres are known, their
-/// tangents are not. A valence of about 450.
+/// Local matrices beyond this size are not decomposed unless they turn with the sectors of a closed fan: the
+/// positions of their centres are known, their tangents are not. A boundary vertex of about 450 faces.
 const MOST: usize = 900;
 
 /// Moduli of eigenvalues that differ by less than this, relatively, are taken as equal: far above the
@@ -100,6 +102,8 @@ pub(crate) struct Stage {
     pub left: Option<[Vec<f64>; 2]>,
     /// The quarters at the second, third and last corner.
     quarters: [Quarter; 3],
+    /// The rotation of the last level around many sectors.
+    rotation: Option<Rotation>,
     /// The eigenvalues of the matrix after 1, by falling modulus.
     spectrum: OnceLock<Vec<Mode>>,
 }
@@ -108,6 +112,8 @@ pub(crate) struct Stage {
 #[derive(Debug)]
 struct Mode {
     value: Complex<f64>,
+    /// The block, if there is a rotation.
+    frequency: usize,
     left: OnceLock<Vec<Vec<Complex<f64>>>>,
 }
 
@@ -269,9 +275,13 @@ impl Stage {
         let matrix: Vec<Row> = child.unknowns().iter().map(|&id| composed(&refined, id)).collect();
         let quarter = |corner| Quarter::new(local, &refined, corner, level + 1, kernel);
         let quarters = [quarter(1)?, quarter(2)?, quarter(3)?];
+        let rotation = match next {
+            None => Rotation::find(&matrix, local, kernel.reach()),
+            Some(_) => None,
+        };
         let (limit, left, own) = match next {
             None => {
-                let pair = pair(&matrix, local)?;
+                let pair = pair(&matrix, local, rotation.as_ref())?;
                 (
                     limit(&matrix),
                     pair.as_ref().ok().map(|pair| pair.left.clone()),
@@ -299,6 +309,7 @@ impl Stage {
             limit,
             left,
             quarters,
+            rotation,
             spectrum: OnceLock::new(),
         };
         Ok((stage, own))
@@ -306,17 +317,36 @@ impl Stage {
 
     fn modes(&self) -> &[Mode] {
         self.spectrum.get_or_init(|| {
-            let all = block(&self.matrix).eigenvalues().unwrap_or_default();
-            let mode = |value| Mode {
+            let mode = |value, frequency| Mode {
                 value,
+                frequency,
                 left: OnceLock::new(),
             };
-            all.iter().skip(1).map(|found| mode(found.value)).collect()
+            let of_block = |block: Block<f64>, k: usize| -> Vec<Mode> {
+                let all = block.eigenvalues().unwrap_or_default();
+                all.iter().map(|found| mode(found.value, k)).collect()
+            };
+            let mut modes: Vec<Mode> = match &self.rotation {
+                Some(rotation) => (0..=rotation.sectors() / 2)
+                    .flat_map(|k| of_block(rotation.block(k), k))
+                    .collect(),
+                None => of_block(block(&self.matrix), 0),
+            };
+            if self.rotation.is_some() {
+                modes.sort_by(|a, b| b.value.modulus().total_cmp(&a.value.modulus()));
+            }
+            // 1 itself
+            modes.drain(..modes.len().min(1));
+            modes
         })
     }
 
     fn functionals(&self, mode: &Mode) -> Vec<Vec<Complex<f64>>> {
-        let space = block(&self.matrix).eigenspace(mode.value, 0);
+        let block = match &self.rotation {
+            Some(rotation) => rotation.block(mode.frequency),
+            None => block(&self.matrix),
+        };
+        let space = block.eigenspace(mode.value, mode.frequency);
         space.map(|space| space.left).unwrap_or_default()
     }
 
@@ -445,21 +475,33 @@ impl Centre {
         if size == 0.0 {
             return None;
         }
+        // with a rotation the parts of heights by frequency, as they are asked for
+        let mut parts: HashMap<usize, Vec<Complex<f64>>> = HashMap::new();
         let mut last = f64::NAN;
         for mode in stage.modes() {
             let modulus = mode.value.modulus();
             let in_pair = self
                 .lambda
                 .is_ok_and(|pair| pair.iter().any(|lambda| (modulus - lambda).abs() < EQUAL * lambda));
-            if in_pair || modulus == last || modulus < 1e-3 {
+            // values of different blocks are different modes
+            let again = modulus == last && stage.rotation.is_none();
+            if in_pair || again || modulus < 1e-3 {
                 continue;
             }
             last = modulus;
             for left in mode.left.get_or_init(|| stage.functionals(mode)) {
-                let part = left
-                    .iter()
-                    .zip(heights)
-                    .fold(Complex::zero(), |sum, (l, &z)| sum + l.scale(z));
+                let part = match &stage.rotation {
+                    Some(rotation) => {
+                        let k = mode.frequency;
+                        let heights = parts.entry(k).or_insert_with(|| rotation.part(k, heights));
+                        let terms = left.iter().zip(heights.iter());
+                        terms.fold(Complex::zero(), |sum, (&l, &z)| sum + l * z)
+                    }
+                    None => {
+                        let terms = left.iter().zip(heights);
+                        terms.fold(Complex::zero(), |sum, (l, &z)| sum + l.scale(z))
+                    }
+                };
                 if part.modulus() > 1e-10 * size {
                     return Some(modulus);
                 }
@@ -500,7 +542,15 @@ fn limit(matrix: &[Row]) -> Vec<f64> {
     weights.iter().map(|w| w / sum).collect()
 }
 
-fn pair(matrix: &[Row], local: &Local) -> Result<Result<Pair, Undefined>, Error> {
+/// The two eigenvalues after 1, if they dominate all others, with their vectors.
+pub(super) struct Leading {
+    pub values: [f64; 2],
+    pub right: [Vec<f64>; 2],
+    pub left: [Vec<f64>; 2],
+}
+
+/// Of a dense matrix.
+pub(super) fn leading(matrix: &[Row]) -> Result<Result<Leading, Undefined>, Error> {
     if matrix.len() > MOST {
         return Ok(Err(Undefined::TooLarge));
     }
@@ -533,9 +583,61 @@ fn pair(matrix: &[Row], local: &Local) -> Result<Result<Pair, Undefined>, Error>
         right.extend(real_part(&space.right));
         left.extend(real_part(&space.left));
     }
-    let ([r0, r1], [l0, l1]) = (right.as_slice(), left.as_slice()) else {
+    let (Ok(right), Ok(left)) = (right.try_into(), left.try_into()) else {
         return refuse(Undefined::Defective);
     };
+    let values = [first.re, second.re];
+    Ok(Ok(Leading { values, right, left }))
+}
+
+/// Of a matrix that turns: the pair of blocks 1 and N-1.
+pub(super) fn turning(matrix: &[Row], rotation: &Rotation) -> Result<Result<Leading, Undefined>, Error> {
+    let refuse = |why| Ok(Err(why));
+    let (mut lambda, mut third) = (None, 0.0_f64);
+    for k in 0..=rotation.sectors() / 2 {
+        let found = rotation.block(k).eigenvalues()?;
+        let all: Vec<Complex<f64>> = found
+            .iter()
+            .flat_map(|e| std::iter::repeat_n(e.value, e.multiplicity))
+            .collect();
+        let own = usize::from(k < 2);
+        match (k, all.first()) {
+            (0, Some(one)) if (one.re - 1.0).abs() <= EQUAL => {}
+            (1, Some(first)) if first.im.abs() <= 1e-12 && first.re > 0.0 && first.re < 1.0 - EQUAL => {
+                lambda = Some(*first);
+            }
+            (0 | 1, _) => return refuse(Undefined::NotDominant),
+            _ => {}
+        }
+        third = third.max(all.get(own).map_or(0.0, |value| value.modulus()));
+    }
+    let Some(lambda) = lambda.filter(|lambda| third <= lambda.re * (1.0 - EQUAL)) else {
+        return refuse(Undefined::NotDominant);
+    };
+    let space = rotation.block(1).eigenspace(lambda, 1)?;
+    let ([right], [left]) = (space.right.as_slice(), space.left.as_slice()) else {
+        return refuse(Undefined::Defective);
+    };
+    let mut right = rotation.spread(1, right, false, matrix.len());
+    for vector in &mut right {
+        rotation.continued(matrix, lambda.re, vector);
+    }
+    let left = rotation.spread(1, left, true, matrix.len());
+    let values = [lambda.re; 2];
+    Ok(Ok(Leading { values, right, left }))
+}
+
+fn pair(matrix: &[Row], local: &Local, rotation: Option<&Rotation>) -> Result<Result<Pair, Undefined>, Error> {
+    let found = match rotation {
+        Some(rotation) => turning(matrix, rotation)?,
+        None => leading(matrix)?,
+    };
+    let refuse = |why| Ok(Err(why));
+    let Leading { values, right, left } = match found {
+        Ok(found) => found,
+        Err(why) => return refuse(why),
+    };
+    let ([r0, r1], [l0, l1]) = (&right, &left);
     // L <- (L R)^-1 L
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
     let gram = [[dot(l0, r0), dot(l0, r1)], [dot(l1, r0), dot(l1, r1)]];
@@ -589,7 +691,7 @@ fn pair(matrix: &[Row], local: &Local) -> Result<Result<Pair, Undefined>, Error>
         left[1].iter_mut().for_each(|l| *l = -*l);
     }
     Ok(Ok(Pair {
-        lambda: [first.re, second.re],
+        lambda: values,
         right,
         left,
     }))

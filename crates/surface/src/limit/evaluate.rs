@@ -128,7 +128,8 @@ pub(crate) fn curvature(first: &[Vector3<f64>; 2], second: &[Vector3<f64>; 3]) -
     })
 }
 
-/// The length of a vector. The root of the sum of squares is as good as `hypot` where squares are no extremes.
+/// The length of a vector. The root of the sum of squares is as good as `hypot` where squares are no
+/// extremes.
 #[inline]
 fn length(x: f64, y: f64) -> f64 {
     let square = x * x + y * y;

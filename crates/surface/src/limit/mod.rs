@@ -20,6 +20,7 @@ mod net;
 mod numbers;
 mod partial;
 mod patch;
+mod rotation;
 mod vertices;
 
 pub(crate) use dual::DualNet;

@@ -6,7 +6,8 @@ use std::hash::{BuildHasherDefault, Hasher};
 /// A table by numbers.
 pub(crate) type ByNumber<T> = HashMap<u64, T, BuildHasherDefault<Multiplied>>;
 
-/// Multiplies by an odd number and folds the product, as the upper and lower bits choose the place in a table.
+/// Multiplies by an odd number and folds the product, as the upper and lower bits choose the place in a
+/// table.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Multiplied(u64);
 

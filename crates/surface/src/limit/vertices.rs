@@ -60,14 +60,31 @@ impl Surface<'_> {
             net: None,
             full: self.kernel.full_steps(),
         };
+        let valences = topology.valences();
         let mut found = Vec::new();
         for vertex in 0..topology.vertex_count() as u32 {
-            found.extend(self.at_vertex(&source, vertex)?);
+            found.extend(self.at_vertex(&source, vertex, &valences)?);
         }
         Ok(found)
     }
 
-    fn at_vertex(&self, source: &Source<'_>, vertex: u32) -> Result<Vec<VertexFan>, Error> {
+    /// The spokes of a fan in whose faces the surface is looked at, in turn: of many so many evenly spread.
+    /// Faces at another vertex with many faces come last, as evaluating one takes as long as all of these.
+    fn asked(&self, topology: &Topology, spokes: &[u32], valences: &[(usize, bool)]) -> Vec<u32> {
+        if spokes.len() > MANY {
+            return (0..SECTORS).map(|i| spokes[i * spokes.len() / SECTORS]).collect();
+        }
+        let busy = |&spoke: &u32| {
+            let corners = self.control.face(topology.face(spoke) as usize).iter();
+            let most = corners.map(|&corner| valences[corner as usize].0).max();
+            most.filter(|&most| most > MANY).unwrap_or(0)
+        };
+        let mut spokes = spokes.to_vec();
+        spokes.sort_by_key(busy);
+        spokes
+    }
+
+    fn at_vertex(&self, source: &Source<'_>, vertex: u32, valences: &[(usize, bool)]) -> Result<Vec<VertexFan>, Error> {
         let topology = source.topology;
         let fan = topology.fan(vertex);
         let n = fan.spokes.len();
@@ -96,7 +113,7 @@ impl Surface<'_> {
             };
             let spokes: Vec<u32> = (start..end).map(|i| fan.spokes[i % n]).collect();
             let mut sample: Option<Sample> = None;
-            for &spoke in &spokes {
+            for &spoke in &self.asked(topology, &spokes, valences) {
                 let face = topology.face(spoke);
                 let corner = spoke - self.control.starts()[face as usize];
                 let quad = topology.face_size(face) == 4;
@@ -124,6 +141,12 @@ impl Surface<'_> {
         Ok(fans)
     }
 }
+
+/// From so many faces on, vertices are seen from faces that have fewer neighbours.
+const MANY: usize = 48;
+
+/// Around a centre of many sectors curvature is looked at in so many.
+const SECTORS: usize = 16;
 
 /// A sample with the ranges of both.
 fn merged(mut first: Sample, other: &Sample) -> Sample {

@@ -1,0 +1,285 @@
+//! Local matrices around a centre of many like sectors: Fourier blocks in place of one large matrix.
+//!
+//! The points of the rings around the centre form orbits of N points each, and the centre itself is fixed.
+//! They refine to themselves by a matrix that turns with the sectors; all other points of the part lie around
+//! its face alone, depend on these, and have eigenvalues below theirs:
+//!
+//! ```text
+//! S = | C 0 |    C in blocks  B_k[p][q] = sum_s C[o_p(0), o_q(s)] w^(k s),  w = exp(2 pi i/N)
+//!     | A B |    right vectors of C go on by  (lambda - B) r = A r_C,  left ones by 0
+//! ```
+
+use super::local::Local;
+use crate::refine::Row;
+use crate::walk::locate;
+use eigenring_scheme::{Complex, Site};
+use eigenring_spectral::{Block, Matrix};
+
+/// Fewer sectors are left to the dense matrix, whose vectors know no symmetry.
+pub(super) const MANY: usize = 16;
+
+/// More work than this, in blocks times the cube of their size, is refused: a minute or so.
+const MOST: usize = 1 << 32;
+
+/// Sums of the order that a rule has around a centre may differ in rounding.
+const SAME: f64 = 1e-13;
+
+/// The orbits around a centre, and the blocks of the matrix.
+#[derive(Debug)]
+pub(super) struct Rotation {
+    sectors: usize,
+    /// The points of each orbit in turn.
+    orbits: Vec<Vec<u32>>,
+    /// The centre, if it is a point.
+    fixed: Option<u32>,
+    /// Rows of the first point of each orbit: orbit and sector of a point, or `None` for the centre, with its
+    /// weight.
+    rows: Vec<Vec<(Option<(usize, usize)>, f64)>>,
+    centre: Vec<(Option<(usize, usize)>, f64)>,
+}
+
+impl Rotation {
+    /// The rotation of a part's matrix around its first corner, if it has one.
+    pub fn find(matrix: &[Row], local: &Local, rings: usize) -> Option<Self> {
+        let topology = &local.topology;
+        let centre = topology.origin(0);
+        let fan = topology.fan(centre);
+        let sectors = fan.spokes.len();
+        let dual = local.net.is_some();
+        if !fan.is_closed() || sectors < MANY || !local.mesh.features.is_empty() {
+            return None;
+        }
+        // of dual nets quads out to ring `rings`, of others vertices
+        let parity = i32::from(dual);
+        let far = if dual { rings as i32 - 1 } else { rings as i32 };
+        let low = 1 - parity;
+        let mut orbits = Vec::new();
+        for (a, b) in (low..=far).flat_map(|a| (0..=far).map(move |b| (a, b))) {
+            let site = Site {
+                sector: 0,
+                x: 2 * a + parity,
+                y: 2 * b + parity,
+            };
+            let orbit = fan.spokes.iter().map(|&spoke| locate(topology, spoke, site));
+            orbits.push(orbit.collect::<Option<Vec<u32>>>()?);
+        }
+        let fixed = (!dual).then_some(centre);
+        let mut places: Vec<Option<Option<(usize, usize)>>> = vec![None; matrix.len()];
+        for (orbit, points) in orbits.iter().enumerate() {
+            for (sector, &point) in points.iter().enumerate() {
+                // a net so small that a point is met twice has no such rotation
+                if places[point as usize].replace(Some((orbit, sector))).is_some() {
+                    return None;
+                }
+            }
+        }
+        if let Some(centre) = fixed {
+            places[centre as usize] = Some(None);
+        }
+        let named = |row: &Row, turn: usize| -> Option<Vec<(Option<(usize, usize)>, f64)>> {
+            let mut terms = Vec::with_capacity(row.len());
+            for &(at, weight) in row.iter().filter(|(_, weight)| *weight != 0.0) {
+                let place = places[at as usize]?;
+                terms.push((
+                    place.map(|(orbit, sector)| (orbit, (sector + sectors - turn) % sectors)),
+                    weight,
+                ));
+            }
+            terms.sort_unstable_by_key(|term| term.0);
+            Some(terms)
+        };
+        let mut rows = Vec::with_capacity(orbits.len());
+        for points in &orbits {
+            let first = named(&matrix[points[0] as usize], 0)?;
+            for (turn, &point) in points.iter().enumerate().skip(1) {
+                let other = named(&matrix[point as usize], turn)?;
+                let same = |(a, b): (&(Option<(usize, usize)>, f64), &(Option<(usize, usize)>, f64))| {
+                    a.0 == b.0 && (a.1 - b.1).abs() <= SAME
+                };
+                if other.len() != first.len() || !first.iter().zip(&other).all(same) {
+                    return None;
+                }
+            }
+            rows.push(first);
+        }
+        let centre = match fixed {
+            Some(centre) => named(&matrix[centre as usize], 0)?,
+            None => Vec::new(),
+        };
+        let size = orbits.len();
+        if (sectors / 2 + 1).checked_mul(size.pow(3))? > MOST {
+            return None;
+        }
+        Some(Rotation {
+            sectors,
+            orbits,
+            fixed,
+            rows,
+            centre,
+        })
+    }
+
+    pub fn sectors(&self) -> usize {
+        self.sectors
+    }
+
+    /// The block of a frequency: the centre first in that of 0.
+    pub fn block(&self, k: usize) -> Block<f64> {
+        let n = self.sectors;
+        let first = usize::from(k == 0 && self.fixed.is_some());
+        let size = self.orbits.len() + first;
+        let mut entries = vec![vec![Complex::<f64>::zero(); size]; size];
+        let mut fill = |row: usize, terms: &[(Option<(usize, usize)>, f64)]| {
+            for &(place, weight) in terms {
+                match place {
+                    Some((orbit, sector)) => {
+                        let turned = Complex::<f64>::turn(((k * sector) % n) as i64, n as i64).scale(weight);
+                        entries[row][first + orbit] = entries[row][first + orbit] + turned;
+                    }
+                    None if k == 0 => entries[row][0] = entries[row][0] + Complex::one().scale(weight),
+                    None => {}
+                }
+            }
+        };
+        if first == 1 {
+            fill(0, &self.centre);
+        }
+        for (index, row) in self.rows.iter().enumerate() {
+            fill(first + index, row);
+        }
+        if k == 0 || 2 * k == n {
+            return Block::Real(Matrix::from_fn(size, size, |i, j| entries[i][j].re));
+        }
+        Block::Complex(Matrix::from_fn(size, size, |i, j| entries[i][j]))
+    }
+
+    /// A vector of a frequency above 0 at all points of the orbits, its real and imaginary parts: `v_p w^(k
+    /// s)` of right vectors, `v_p w^(-k s)` of left ones.
+    pub fn spread(&self, k: usize, vector: &[Complex<f64>], left: bool, points: usize) -> [Vec<f64>; 2] {
+        let n = self.sectors as i64;
+        let mut parts = [vec![0.0; points], vec![0.0; points]];
+        for (orbit, &value) in self.orbits.iter().zip(vector) {
+            for (sector, &point) in orbit.iter().enumerate() {
+                let angle = (k as i64 * sector as i64) % n;
+                let turned = value * Complex::turn(if left { -angle } else { angle }, n);
+                parts[0][point as usize] = turned.re;
+                parts[1][point as usize] = turned.im;
+            }
+        }
+        parts
+    }
+
+    /// Goes on with a right vector of the rings to the points around the face.
+    pub fn continued(&self, matrix: &[Row], value: f64, vector: &mut [f64]) {
+        let mut inside = vec![false; matrix.len()];
+        self.orbits
+            .iter()
+            .flatten()
+            .for_each(|&point| inside[point as usize] = true);
+        if let Some(centre) = self.fixed {
+            inside[centre as usize] = true;
+        }
+        let outside: Vec<usize> = (0..matrix.len()).filter(|&point| !inside[point]).collect();
+        // the eigenvalues of these points are far below
+        for _ in 0..400 {
+            let mut change = 0.0_f64;
+            for &point in &outside {
+                let sum: f64 = matrix[point]
+                    .iter()
+                    .map(|&(at, weight)| weight * vector[at as usize])
+                    .sum();
+                change = change.max((sum / value - vector[point]).abs());
+                vector[point] = sum / value;
+            }
+            if change < 1e-17 {
+                break;
+            }
+        }
+    }
+
+    /// The part of frequency k in heights at the points: by orbits, after the centre's in that of frequency
+    /// 0.
+    pub fn part(&self, k: usize, heights: &[f64]) -> Vec<Complex<f64>> {
+        let n = self.sectors;
+        let turns: Vec<Complex<f64>> = (0..n).map(|s| Complex::turn(-(s as i64), n as i64)).collect();
+        let centre = self.fixed.filter(|_| k == 0);
+        let centre = centre.map(|centre| Complex::one().scale(heights[centre as usize]));
+        let orbit = |points: &Vec<u32>| {
+            let terms = points.iter().enumerate();
+            let sum = terms.fold(Complex::zero(), |sum: Complex<f64>, (s, &point)| {
+                sum + turns[(k * s) % n].scale(heights[point as usize])
+            });
+            sum.scale(1.0 / n as f64)
+        };
+        centre.into_iter().chain(self.orbits.iter().map(orbit)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Rules;
+    use crate::limit::Surface;
+    use crate::limit::centre::{Leading, composed, leading, turning};
+    use crate::limit::local::Source;
+    use crate::shapes::{StarKind, star};
+    use eigenring_scheme::{Definition, Spec};
+
+    /// Eigenvectors are judged by the matrix itself, their dominance by the dense decomposition.
+    #[test]
+    fn blocks_and_the_whole_matrix_have_the_same_pair() {
+        for (spec, n) in [
+            ("catmull-clark", 50),
+            ("catmull-clark", 51),
+            ("stam:order=6", 48),
+            ("doo-sabin", 50),
+            ("stam:order=5", 49),
+        ] {
+            let rules = Rules::new(Definition::Family(spec.parse::<Spec>().unwrap()));
+            let mesh = star(n, 5, StarKind::Saddle);
+            let surface = Surface::new(&mesh, &rules).unwrap();
+            let (kernel, topology) = (&surface.kernel, &surface.topology);
+            let source = Source {
+                mesh: &surface.base,
+                topology,
+                ends: surface.ends,
+                soft: false,
+                net: surface.net.as_ref(),
+                full: kernel.full_steps(),
+            };
+            // the face of the base at vertex 0, counted from there
+            let start = topology.fan(0).spokes[0];
+            let local = source.part(start, kernel.reach(), |_| None);
+            let refined = local.refined(&rules, kernel, 0).unwrap();
+            let child = local.child(&refined, 0, kernel.reach()).unwrap();
+            let matrix: Vec<Row> = child.unknowns().iter().map(|&id| composed(&refined, id)).collect();
+            let rotation = Rotation::find(&matrix, &local, kernel.reach()).expect(spec);
+            let dense = leading(&matrix)
+                .unwrap()
+                .unwrap_or_else(|why| panic!("{spec}: {why:?}"));
+            let Leading { values, right, left } = turning(&matrix, &rotation).unwrap().unwrap();
+            for (value, expected) in values.iter().zip(dense.values) {
+                assert!((value - expected).abs() < 1e-12, "{spec}: {value} {expected}");
+            }
+            for (value, (right, left)) in values.iter().zip(right.iter().zip(&left)) {
+                let mut back = vec![0.0; matrix.len()];
+                for (row, (image, weight)) in matrix.iter().zip(right.iter().zip(left)) {
+                    let sum: f64 = row.iter().map(|&(at, w)| w * right[at as usize]).sum();
+                    assert!((sum - value * image).abs() < 1e-13, "{spec}: right");
+                    row.iter().for_each(|&(at, w)| back[at as usize] += weight * w);
+                }
+                let off = back.iter().zip(left).map(|(b, l)| (b - value * l).abs());
+                assert!(off.fold(0.0, f64::max) < 1e-13, "{spec}: left");
+                assert!(right.iter().chain(left).any(|x| x.abs() > 0.1), "no zero vectors");
+            }
+            // heights of frequency 2 alone have a part in no other
+            let heights: Vec<f64> =
+                rotation.spread(2, &vec![Complex::one(); rotation.orbits.len()], false, matrix.len())[0].clone();
+            for k in 0..=n / 2 {
+                let part = rotation.part(k, &heights);
+                let most = part.iter().fold(0.0_f64, |most, c| most.max(c.modulus()));
+                assert_eq!(most > 1e-12, k == 2, "{spec}: {k}");
+            }
+        }
+    }
+}
