@@ -24,6 +24,9 @@ const MOST: usize = 1 << 32;
 /// Sums of the order that a rule has around a centre may differ in rounding.
 const SAME: f64 = 1e-13;
 
+/// A point, by its orbit and sector, or the centre, and its weight.
+type Term = (Option<(usize, usize)>, f64);
+
 /// The orbits around a centre, and the blocks of the matrix.
 #[derive(Debug)]
 pub(super) struct Rotation {
@@ -34,8 +37,8 @@ pub(super) struct Rotation {
     fixed: Option<u32>,
     /// Rows of the first point of each orbit: orbit and sector of a point, or `None` for the centre, with its
     /// weight.
-    rows: Vec<Vec<(Option<(usize, usize)>, f64)>>,
-    centre: Vec<(Option<(usize, usize)>, f64)>,
+    rows: Vec<Vec<Term>>,
+    centre: Vec<Term>,
 }
 
 impl Rotation {
@@ -76,7 +79,7 @@ impl Rotation {
         if let Some(centre) = fixed {
             places[centre as usize] = Some(None);
         }
-        let named = |row: &Row, turn: usize| -> Option<Vec<(Option<(usize, usize)>, f64)>> {
+        let named = |row: &Row, turn: usize| -> Option<Vec<Term>> {
             let mut terms = Vec::with_capacity(row.len());
             for &(at, weight) in row.iter().filter(|(_, weight)| *weight != 0.0) {
                 let place = places[at as usize]?;
@@ -93,9 +96,7 @@ impl Rotation {
             let first = named(&matrix[points[0] as usize], 0)?;
             for (turn, &point) in points.iter().enumerate().skip(1) {
                 let other = named(&matrix[point as usize], turn)?;
-                let same = |(a, b): (&(Option<(usize, usize)>, f64), &(Option<(usize, usize)>, f64))| {
-                    a.0 == b.0 && (a.1 - b.1).abs() <= SAME
-                };
+                let same = |(a, b): (&Term, &Term)| a.0 == b.0 && (a.1 - b.1).abs() <= SAME;
                 if other.len() != first.len() || !first.iter().zip(&other).all(same) {
                     return None;
                 }
@@ -129,14 +130,14 @@ impl Rotation {
         let first = usize::from(k == 0 && self.fixed.is_some());
         let size = self.orbits.len() + first;
         let mut entries = vec![vec![Complex::<f64>::zero(); size]; size];
-        let mut fill = |row: usize, terms: &[(Option<(usize, usize)>, f64)]| {
+        let mut fill = |row: usize, terms: &[Term]| {
             for &(place, weight) in terms {
                 match place {
                     Some((orbit, sector)) => {
                         let turned = Complex::<f64>::turn(((k * sector) % n) as i64, n as i64).scale(weight);
-                        entries[row][first + orbit] = entries[row][first + orbit] + turned;
+                        entries[row][first + orbit] += turned;
                     }
-                    None if k == 0 => entries[row][0] = entries[row][0] + Complex::one().scale(weight),
+                    None if k == 0 => entries[row][0] += Complex::one().scale(weight),
                     None => {}
                 }
             }
