@@ -292,10 +292,12 @@ impl Builder<'_> {
             let sharpness = features.creases.get(&pair).copied().unwrap_or(0.0);
             let boundary = self.topology.is_boundary(number);
             if !boundary && sharpness > 0.0 && sharpness < INFINITE {
-                soft.push(pair[0]);
+                soft.extend(pair);
             }
             rims[number as usize] = boundary || sharpness >= INFINITE;
         }
+        soft.sort_unstable();
+        soft.dedup();
         if soft.is_empty() {
             Ok(rims)
         } else {

@@ -114,6 +114,10 @@ impl Rules {
     pub(crate) fn method(&self) -> Result<Method, Error> {
         let definition = self.definition();
         if let Definition::Family(spec) = definition {
+            // levels are taken one by one here, so that nothing else asks
+            if let Some((order, u0)) = spec.order_and_tension() {
+                eigenring_scheme::families::check_parameters(order, u0)?;
+            }
             return Ok(match spec.order_and_tension() {
                 Some((order, u0)) if order % 2 == 0 => Method::Even { order, u0 },
                 Some((_, u0)) => Method::Odd { u0 },

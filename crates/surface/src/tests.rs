@@ -5,7 +5,7 @@
 
 use crate::features::edge;
 use crate::walk::locate;
-use crate::{Boundary, Mesh, Point3, Refiner, Rules, Topology};
+use crate::{Boundary, Mesh, Point3, Refiner, Rules, Surface, Topology, shapes};
 use eigenring_scheme::user::{Reading, UserScheme};
 use eigenring_scheme::{Corner, Definition, Lattice, Numbering, PointNet, Scheme, Site, Spec, refine, registry};
 
@@ -330,4 +330,25 @@ fn dual_schemes_name_what_they_have_no_rule_for() {
     assert!(soft.contains("below 10"), "{soft}");
     let cusp = refuse(&|mesh| mark_corner(mesh, pair[0]));
     assert!(cusp.contains("cusp"), "{cusp}");
+}
+
+#[test]
+fn orders_and_tensions_out_of_range_are_refused() {
+    let refused = [
+        Spec::Tension { order: 6, u0: -1.0 },
+        Spec::Tension { order: 6, u0: f64::NAN },
+        Spec::Tension {
+            order: 5,
+            u0: f64::INFINITY,
+        },
+        Spec::Tension { order: 2, u0: 1.0 },
+        Spec::Stam { order: 33 },
+        Spec::Morin { u0: -2.0 },
+    ];
+    for spec in refused {
+        let rules = Rules::new(Definition::Family(spec.clone()));
+        let cube = shapes::cube();
+        assert!(Refiner::new(&rules).refined(&cube, 1).is_err(), "{spec}");
+        assert!(Surface::new(&cube, &rules).is_err(), "{spec}");
+    }
 }

@@ -14,7 +14,7 @@ pub use half_cell::half_cell;
 pub use intervals::{sector_lines, with_intervals};
 pub use split_face::SplitFace;
 pub(crate) use tension::tensions_from;
-pub use tension::{MAX_ORDER, smoothing_weights, tension, tension_at};
+pub use tension::{MAX_ORDER, check_parameters, smoothing_weights, tension, tension_at};
 
 use crate::{Centre, Corner, Error, Level, Scalar, Scheme};
 

@@ -50,15 +50,30 @@ pub(super) fn names(valence: usize, order: usize) -> Result<Level<Name>, Error> 
     if valence < 3 {
         return Err(Error::Valence { valence });
     }
-    if !(3..=MAX_ORDER).contains(&order) {
-        return Err(Error::Order {
-            order,
-            maximum: MAX_ORDER,
-        });
-    }
+    check_order(order)?;
     match order % 2 {
         0 => even(valence, order),
         _ => odd(valence, order),
+    }
+}
+
+/// Whether there is a scheme of this order and initial tension.
+///
+/// # Errors
+/// [`Error::Order`] and [`Error::Tension`], as [`tension`].
+pub fn check_parameters(order: usize, u0: f64) -> Result<(), Error> {
+    check_order(order)?;
+    check_tension(u0)
+}
+
+fn check_order(order: usize) -> Result<(), Error> {
+    if (3..=MAX_ORDER).contains(&order) {
+        Ok(())
+    } else {
+        Err(Error::Order {
+            order,
+            maximum: MAX_ORDER,
+        })
     }
 }
 
