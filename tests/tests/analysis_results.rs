@@ -27,6 +27,8 @@ fn lambda(scheme: &str, valence: f64) -> f64 {
     let cosine = (TAU / valence).cos();
     match scheme.strip_prefix("lambda:lambda=") {
         Some(lambda) => lambda.parse().unwrap(),
+        // Li, Wei and Zhang 2019, Lemma 1
+        None if scheme == "hnuss" => 0.5,
         None => (5.0 + cosine + ((9.0 + cosine) * (1.0 + cosine)).sqrt()) / 16.0,
     }
 }
@@ -37,7 +39,7 @@ fn errors_fall_at_the_rates_of_lambda() {
     let mut seen = 0;
     for row in rows
         .iter()
-        .filter(|row| row["level"] == "5" && row["scheme"] != "lambda:optimal")
+        .filter(|row| row["level"] == "5" && row["scheme"] != "lambda:optimal" && row["mesh"].starts_with("fan"))
     {
         let a = -lambda(&row["scheme"], row["mesh"][3..].parse().unwrap()).log2();
         let expected = [
@@ -57,12 +59,18 @@ fn errors_fall_at_the_rates_of_lambda() {
                 // the rates of L2 and H1 are still falling and rising to theirs
                 assert!(norm != "H1" || found >= 2.9, "{row:?}");
             } else {
-                assert!((found - expected).abs() <= 0.07, "{norm}: {row:?}");
+                // HNUSS reaches its rate in L2 late: from below, the later the more spokes there are
+                let off = if row["scheme"] == "hnuss" && norm == "L2" {
+                    0.11
+                } else {
+                    0.07
+                };
+                assert!((found - expected).abs() <= off, "{norm}: {row:?}");
             }
         }
         seen += 1;
     }
-    assert_eq!(seen, 20);
+    assert_eq!(seen, 25);
 }
 
 #[test]
@@ -118,4 +126,40 @@ fn eigenvalues_fall_at_twice_the_rate_of_h1() {
         number(rows.iter().find(of).unwrap(), "relative error")
     };
     assert!(sphere("catmull-clark") <= 2e-9 && sphere("lambda:lambda=0.39") <= 2e-9);
+}
+
+/// Relative errors in L2 on the fan of six at levels 2 and 4, to two digits, by a prototype that shares no
+/// code.
+#[test]
+fn errors_against_lambda_are_those_of_the_prototype() {
+    let rows = rows("lambda.csv");
+    for (scheme, expected) in [
+        ("catmull-clark", [1.0e-5, 3.9e-7]),
+        ("lambda:optimal", [2.1e-6, 7.7e-8]),
+        ("lambda:lambda=0.39", [1.3e-5, 5.5e-8]),
+        ("lambda:lambda=0.35", [1.5e-5, 4.0e-8]),
+    ] {
+        for (level, expected) in ["2", "4"].into_iter().zip(expected) {
+            let of = |row: &&Row| row["valence"] == "6" && row["scheme"] == scheme && row["level"] == level;
+            let found = number(rows.iter().find(of).unwrap(), "L2");
+            assert!(
+                (found / expected - 1.0).abs() <= 0.05,
+                "{scheme}, level {level}: {found:e} for {expected:e}"
+            );
+        }
+    }
+}
+
+#[test]
+fn pictures_show_the_error_and_the_weight_of_the_centre() {
+    for row in rows("solution.csv") {
+        let exact = (0.5 * (number(&row, "x") + number(&row, "y"))).exp();
+        let error = (number(&row, "value") - exact).abs();
+        assert!((error - number(&row, "error")).abs() < 1e-14 && error < 1e-3, "{row:?}");
+    }
+    // the limit of a vertex has N/(N + 5) of it (Halstead, Kass and DeRose 1993)
+    let rows = rows("basis-functions.csv");
+    let own = rows.iter().filter(|row| row["scheme"] == "catmull-clark");
+    let highest = own.map(|row| number(row, "value")).fold(0.0, f64::max);
+    assert!(highest < 0.5 && highest > 0.49, "{highest}");
 }

@@ -21,6 +21,7 @@ mod sparse;
 mod spectrum;
 mod study;
 mod tables;
+mod tiles;
 
 pub use error::Error;
 pub use norms::Norms;
@@ -28,6 +29,7 @@ pub use problem::{Dirichlet, Options, Outcome, Problem, Solver};
 pub use space::Ends;
 pub use spectrum::{Membrane, Spectrum};
 pub use study::{Domain, Study};
+pub use tiles::Tile;
 
 use eigenring_scheme::{Lattice, Scheme};
 

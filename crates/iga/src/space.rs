@@ -7,7 +7,7 @@
 //! spline of the ghosts' b alone.
 
 use crate::Error;
-use crate::tables::{Around, Table, element, far};
+use crate::tables::{Around, Rule, Table, element, far, gauss};
 use eigenring_nonuniform::{Element, grid};
 use eigenring_scheme::{Fan, Lattice, Numbering};
 use eigenring_surface::{Mesh, Point3, Rules, Topology};
@@ -361,6 +361,11 @@ impl Space {
     /// The tables of all kinds of faces; `scaled` tells whether the last annulus stands for those that
     /// follow.
     pub fn tables(&self, order: usize, depth: Depth, scaled: bool) -> BTreeMap<Kind, Table> {
+        self.tables_at(&gauss(order), depth, scaled)
+    }
+
+    /// The same at any points of the patches.
+    pub fn tables_at(&self, rule: &Rule, depth: Depth, scaled: bool) -> BTreeMap<Kind, Table> {
         let of = |around: &Around| match depth {
             Depth::Area => around.depth(),
             Depth::Energy => around.plate_depth().unwrap_or(crate::MOST_ANNULI),
@@ -373,13 +378,13 @@ impl Space {
         let mut tables = BTreeMap::new();
         for cell in &self.cells {
             tables.entry(cell.kind).or_insert_with(|| match cell.kind {
-                Kind::Far => far(order),
-                Kind::Near(n, at) => self.around[&n].near(order, at),
+                Kind::Far => far(rule),
+                Kind::Near(n, at) => self.around[&n].near(rule, at),
                 Kind::Irregular(n) => {
                     let around = &self.around[&n];
-                    around.irregular(order, of(around), scaled)
+                    around.irregular(rule, of(around), scaled)
                 }
-                Kind::Element(k) => element(&self.elements[k], order, with_intervals, scaled),
+                Kind::Element(k) => element(&self.elements[k], rule, with_intervals, scaled),
             });
         }
         tables

@@ -132,8 +132,16 @@ impl<'a> Study<'a> {
         }
     }
 
+    /// The points of level 0 from those of the mesh.
+    pub(crate) fn first_level(&self, points: &[[f64; 1]]) -> Result<Vec<[f64; 1]>, Error> {
+        match &self.levels {
+            Levels::Uniform(..) => Ok(points.to_vec()),
+            Levels::Hybrid(refinement) => Ok(refinement.apply(points)?),
+        }
+    }
+
     /// The space of a level over its control mesh.
-    fn space(&self, level: usize, ends: Ends) -> Result<Space, Error> {
+    pub(crate) fn space(&self, level: usize, ends: Ends) -> Result<Space, Error> {
         let space = match &self.levels {
             Levels::Uniform(rules, tuned) => {
                 // one by one, as several at once would have another order of points

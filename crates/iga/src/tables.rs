@@ -71,8 +71,11 @@ fn tensor(a: [[f64; 4]; 3], b: [[f64; 4]; 3]) -> [Jet; 16] {
     })
 }
 
-/// The points of the tensor rule on the unit square with their weights.
-fn rule(order: usize) -> Vec<([f64; 2], f64)> {
+/// Points of the unit square with their weights.
+pub(crate) type Rule = [([f64; 2], f64)];
+
+/// Gauss's tensor rule.
+pub(crate) fn gauss(order: usize) -> Vec<([f64; 2], f64)> {
     let nodes = line_rule(order);
     let pairs = nodes
         .iter()
@@ -89,14 +92,14 @@ pub(crate) fn line_rule(order: usize) -> Vec<(f64, f64)> {
 }
 
 /// A face without an extraordinary vertex in its grid.
-pub(crate) fn far(order: usize) -> Table {
+pub(crate) fn far(rule: &Rule) -> Table {
     let mut table = Table {
         columns: (0..16).collect(),
         weights: Vec::new(),
         jets: Vec::new(),
         limit: None,
     };
-    for ([s, t], weight) in rule(order) {
+    for &([s, t], weight) in rule {
         table.weights.push(weight);
         table.jets.extend(bicubic(s, t));
     }
@@ -104,7 +107,7 @@ pub(crate) fn far(order: usize) -> Table {
 }
 
 /// An element with knot intervals.
-pub(crate) fn element(of: &Element, order: usize, depth: usize, scaled: bool) -> Table {
+pub(crate) fn element(of: &Element, rule: &Rule, depth: usize, scaled: bool) -> Table {
     let (pieces, limit) = of.pieces(depth);
     let read = |column: &usize| {
         pieces
@@ -118,11 +121,10 @@ pub(crate) fn element(of: &Element, order: usize, depth: usize, scaled: bool) ->
         weights: Vec::new(),
         jets: Vec::new(),
     };
-    let rule = rule(order);
     for piece in &pieces {
         // areas shrink by 1/4 at each level
         let factor = if scaled && piece.is_last { 4.0 / 3.0 } else { 1.0 };
-        for &([s, t], weight) in &rule {
+        for &([s, t], weight) in rule {
             table.weights.push(weight * factor);
             let jets = with_intervals(piece.intervals, s, t);
             for &column in &table.columns {
@@ -142,16 +144,15 @@ pub(crate) fn element(of: &Element, order: usize, depth: usize, scaled: bool) ->
 /// A patch: its control points, the matrices of values and of derivatives, a factor of its weights.
 type Patch<'a> = ([usize; 16], &'a Matrix<f64>, &'a Matrix<f64>, f64);
 
-fn patches(of: &[Patch<'_>], columns: Vec<usize>, order: usize) -> Table {
+fn patches(of: &[Patch<'_>], columns: Vec<usize>, rule: &Rule) -> Table {
     let mut table = Table {
         columns,
         weights: Vec::new(),
         jets: Vec::new(),
         limit: None,
     };
-    let rule = rule(order);
     for (rows, values, derivatives, factor) in of {
-        for &([s, t], weight) in &rule {
+        for &([s, t], weight) in rule {
             table.weights.push(weight * factor);
             let jets = bicubic(s, t);
             for &column in &table.columns {
@@ -293,7 +294,7 @@ impl Around {
     }
 
     /// A face at the centre, in sector 0, over the points of two rings.
-    pub fn irregular(&self, order: usize, depth: usize, scaled: bool) -> Table {
+    pub fn irregular(&self, rule: &Rule, depth: usize, scaled: bool) -> Table {
         let lift = product(&self.outer, &self.inner);
         let mut power = Matrix::from_fn(self.s.rows(), self.s.rows(), |i, j| f64::from(u8::from(i == j)));
         let mut deflated = power.clone();
@@ -324,18 +325,18 @@ impl Around {
                 .any(|(rows, values, ..)| rows.iter().any(|&r| values[(r, *column)] != 0.0))
         };
         let columns = (0..self.s.rows()).filter(used).collect();
-        let mut table = patches(&list, columns, order);
+        let mut table = patches(&list, columns, rule);
         table.limit = Some(table.columns.iter().map(|&column| self.limit[column]).collect());
         table
     }
 
     /// A face beside those at the centre, at (1, 0), (1, 1) or (0, 1), over its own 16 points.
-    pub fn near(&self, order: usize, at: [i32; 2]) -> Table {
+    pub fn near(&self, rule: &Rule, at: [i32; 2]) -> Table {
         let [x, y] = at;
         let own = self.grid(3, x, y);
         let parts = [[0, 0], [1, 0], [0, 1], [1, 1]]
             .map(|[i, j]| (self.rows(2 * x + i, 2 * y + j), &self.outer, &self.outer, 1.0));
-        let mut table = patches(&parts, own.to_vec(), order);
+        let mut table = patches(&parts, own.to_vec(), rule);
         table.columns = (0..16).collect();
         table
     }

@@ -2,7 +2,9 @@
 
 use crate::common::{rules, warped};
 use eigenring_iga::{Dirichlet, Domain, Ends, Error, Norms, Options, Problem, Study, solution};
-use eigenring_surface::{Mesh, shapes};
+use eigenring_scheme::Definition;
+use eigenring_scheme::user::{Reading, UserScheme};
+use eigenring_surface::{Mesh, Rules, shapes};
 
 fn nitsche() -> Options {
     Options {
@@ -126,6 +128,37 @@ fn closed_surfaces_have_the_rates_of_the_plane() {
             assert!((-0.05..0.5).contains(&above), "{scheme}: {rate}, {above} above");
         }
     }
+}
+
+/// A vertex that hardly moves: block 0 has an eigenvalue above the pair of the characteristic map, so that
+/// the energy of second derivatives grows from annulus to annulus (Reif and Schroeder 2001).
+const HEAVY: &str = r#"
+name = "heavy"
+kind = "one-ring"
+[rule]
+n = "3.."
+f1 = "1/4"
+f2 = "1/4"
+f3 = "1/4"
+d1 = "3/8"
+d2 = "3/8"
+e1 = "1/16"
+e2 = "1/16"
+alpha = "1/(8*n)"
+beta = "1/(16*n)"
+"#;
+
+#[test]
+fn functions_outside_of_h2_carry_no_plate() {
+    let scheme = UserScheme::parse(HEAVY, "heavy", Reading::default()).expect("a scheme");
+    let rules = Rules::new(Definition::File(scheme.into()));
+    let study = Study::new(&shapes::fan(5), &rules, Domain::Planar).expect("a study");
+    let u = solution::named("exp").expect("a solution");
+    let plate = study.level(0, Problem::Biharmonic, &u, &Options::default());
+    assert!(
+        matches!(plate, Err(Error::NotH2 { ratio, .. }) if ratio > 1.0),
+        "{plate:?}"
+    );
 }
 
 #[test]

@@ -15,7 +15,6 @@ use clap::{Args, Subcommand, ValueEnum};
 use eigenring_atlas::analysis::studies::{StudyEntry, find};
 use eigenring_atlas::analysis::{Basis, Membranes, Request, Task as Kind, rates, spectra, study};
 use eigenring_atlas::meshes;
-use eigenring_atlas::progress::each;
 use eigenring_atlas::schemes::SchemeName;
 use eigenring_atlas::table::{Format, pretty};
 use eigenring_iga::{Dirichlet, Domain, Ends, Membrane, Options, Solver};
@@ -54,7 +53,7 @@ enum Task {
 /// Which studies are run.
 #[derive(Args, Debug)]
 struct Studies {
-    /// convergence, annuli, boundary, plates, spectra
+    /// convergence, annuli, boundary, plates, spectra, lambda, pictures
     #[arg(value_name = "NAME", required = true)]
     names: Vec<String>,
     /// The number of levels, by default each study's own
@@ -360,16 +359,19 @@ impl Studies {
         let out = self.out.unwrap_or_else(|| Path::new(UNSTORED).join("analysis"));
         files::check_writable(&out, &out)?;
         let tuner = args::tuner();
-        let drawn = each(&Terminal, "studies", &entries, |entry| -> Result<_, Error> {
-            Ok((entry.build)(self.levels.unwrap_or(entry.levels), &tuner)?)
-        })?;
         let mut written = Written::default();
-        for drawing in drawn.into_iter().flatten() {
-            let picture = PictureFormat::Png.draw(&drawing.figure, DPI)?;
-            written.write(out.join(format!("{}.png", drawing.stem)), &picture)?;
-            for (suffix, table) in &drawing.data {
-                let text = table.render(Format::Csv);
-                written.write(out.join(format!("{}{suffix}.csv", drawing.stem)), text.as_bytes())?;
+        // each part is written before the next begins
+        let parts = entries
+            .iter()
+            .flat_map(|entry| entry.parts.iter().map(move |part| (entry, part)));
+        for (entry, part) in parts {
+            for drawing in part(self.levels.unwrap_or(entry.levels), &tuner)? {
+                let picture = PictureFormat::Png.draw(&drawing.figure, DPI)?;
+                written.write(out.join(format!("{}.png", drawing.stem)), &picture)?;
+                for (suffix, table) in &drawing.data {
+                    let text = table.render(Format::Csv);
+                    written.write(out.join(format!("{}{suffix}.csv", drawing.stem)), text.as_bytes())?;
+                }
             }
         }
         files::emit(None, written.list().as_bytes())?;

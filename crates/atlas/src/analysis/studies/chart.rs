@@ -6,6 +6,28 @@ use eigenring_figure::{Anchor, Axis, Chart, Colour, Dash, Figure, Marker, Panel,
 /// Levels over which lines of predicted slopes run.
 const SLOPES: i32 = 3;
 
+/// The height of a line of text over that of a panel.
+const TEXT: f64 = 0.085;
+
+/// Places beside ascending ones with at least this ratio between them, about the same middles.
+pub(super) fn spread(tops: &[f64], ratio: f64) -> Vec<f64> {
+    let mut groups: Vec<(f64, usize)> = Vec::new();
+    // a group of places that touch is centred at the mean of what they belong to, in logarithms
+    for top in tops {
+        groups.push((top.ln(), 1));
+        while let [.., (below, n), (above, m)] = groups[..] {
+            if above - below >= 0.5 * (n + m) as f64 * ratio.ln() {
+                break;
+            }
+            groups.truncate(groups.len() - 2);
+            groups.push(((below * n as f64 + above * m as f64) / (n + m) as f64, n + m));
+        }
+    }
+    let place = |(middle, n): (f64, usize)| (0..n).map(move |k| (middle, k as f64 - 0.5 * (n - 1) as f64));
+    let places = groups.into_iter().flat_map(place);
+    places.map(|(middle, k)| (middle + k * ratio.ln()).exp()).collect()
+}
+
 /// The curves of one panel, lines with the predicted slopes below them.
 pub(super) fn chart(runs: &[Run], name: &str) -> Chart {
     let place = NORMS.iter().find(|(of, _)| *of == name).expect("a norm").1;
@@ -19,7 +41,8 @@ pub(super) fn chart(runs: &[Run], name: &str) -> Chart {
     let (_, high) = decades_of(all()).unwrap_or((0.1, 1.0));
     let mut rates: Vec<f64> = runs.iter().filter_map(|run| run.predicted[place]).collect();
     rates.sort_by(f64::total_cmp);
-    rates.dedup_by(|a, b| (*a - *b).abs() < 0.25);
+    // rates that are nearly equal share a line
+    rates.dedup_by(|a, b| (*a - *b).abs() < 0.1);
     let foot = lowest / 8.0_f64.powf(rates.last().copied().unwrap_or(0.0) * 0.35) / 10.0;
     let x = Axis::log("$h$", (h(levels - 1) / 1.3, 1.3));
     let mut chart = Chart::new(
@@ -39,11 +62,15 @@ pub(super) fn chart(runs: &[Run], name: &str) -> Chart {
     }
     let from = levels - 1;
     let to = (from - SLOPES).max(0);
-    for rate in rates {
-        let top = foot * 2.0_f64.powf(rate * f64::from(from - to));
+    let tops: Vec<f64> = rates
+        .iter()
+        .map(|rate| foot * 2.0_f64.powf(rate * f64::from(from - to)))
+        .collect();
+    let places = spread(&tops, (high / foot * 3.0).powf(TEXT));
+    for ((rate, top), place) in rates.into_iter().zip(tops).zip(places) {
         let line = Style::solid(Colour::INK).dashed(Dash::Dashed);
         chart = chart.series(vec![[h(from), foot], [h(to), top]], line).text(
-            [1.08 * h(to), top],
+            [1.08 * h(to), place],
             format!("{rate:.2}"),
             Anchor::Start,
             Colour::INK,
@@ -70,4 +97,24 @@ pub(super) fn figure(title: &str, panels: Vec<(String, Chart)>) -> Figure {
         figure = figure.panel(index / columns, index % columns, Panel::new(chart).title(title));
     }
     figure.legend(Side::Bottom)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_do_not_overlap_and_stay_in_order() {
+        let tops = [1.0, 1.1, 1.2, 50.0, 1000.0, 1500.0];
+        let places = spread(&tops, 2.0);
+        assert!(
+            places.windows(2).all(|pair| pair[1] >= 2.0 * pair[0] * (1.0 - 1e-12)),
+            "{places:?}"
+        );
+        assert!(
+            (places[3] - 50.0).abs() < 1e-9 && (places[1] - 1.097).abs() < 1e-2,
+            "{places:?}"
+        );
+        assert!((places[4] * places[5] - 1.5e6).abs() < 1.0, "{places:?}");
+    }
 }

@@ -6,6 +6,8 @@
 
 mod chart;
 mod eigenvalues;
+mod fixed;
+mod pictures;
 
 use super::{Basis, ends_name};
 use crate::error::Error;
@@ -18,6 +20,8 @@ use eigenring_iga::{Domain, Ends, Norms, Options, Problem, Study, solution};
 use eigenring_nonuniform::Outside;
 use eigenring_surface::{Mesh, shapes};
 use eigenvalues::spectra;
+use fixed::against_lambda;
+use pictures::{functions, solutions};
 
 /// A registered study.
 #[derive(Debug)]
@@ -28,9 +32,13 @@ pub struct StudyEntry {
     pub title: &'static str,
     /// Levels by default.
     pub levels: usize,
-    /// Runs it on so many levels.
-    pub build: fn(usize, &Tuner<'_>) -> Result<Vec<Drawing>, Error>,
+    /// Its parts, which are run on so many levels: each is complete by itself, so that it can be kept when
+    /// the next is interrupted.
+    pub parts: &'static [Part],
 }
+
+/// A part of a study, from the number of levels.
+pub type Part = fn(usize, &Tuner<'_>) -> Result<Vec<Drawing>, Error>;
 
 /// All studies.
 pub const STUDIES: &[StudyEntry] = &[
@@ -38,31 +46,46 @@ pub const STUDIES: &[StudyEntry] = &[
         name: "convergence",
         title: "errors of Poisson's equation on fans and on a square, two solutions (Li, Wei and Zhang 2019, Figs. 15 to 18, on meshes of our own)",
         levels: 6,
-        build: convergence,
+        parts: &[
+            |levels, tuner| convergence(levels, "exp", tuner),
+            |levels, tuner| convergence(levels, "sin", tuner),
+        ],
     },
     StudyEntry {
         name: "annuli",
         title: "the patch test against the number of annuli, dropped and scaled tail",
         levels: 3,
-        build: annuli,
+        parts: &[annuli],
     },
     StudyEntry {
         name: "boundary",
         title: "open and natural boundary",
         levels: 6,
-        build: boundary,
+        parts: &[boundary],
     },
     StudyEntry {
         name: "plates",
         title: "clamped plates",
         levels: 6,
-        build: plates,
+        parts: &[plates],
     },
     StudyEntry {
         name: "spectra",
         title: "eigenvalues of the equilateral triangle and of the sphere against their closed forms",
         levels: 5,
-        build: spectra,
+        parts: &[spectra],
+    },
+    StudyEntry {
+        name: "lambda",
+        title: "errors against lambda at fixed levels, tuned stencils, N = 3 to 12",
+        levels: 5,
+        parts: &[against_lambda],
+    },
+    StudyEntry {
+        name: "pictures",
+        title: "a solution, its error beside an extraordinary vertex with the elements, and basis functions of that vertex",
+        levels: 3,
+        parts: &[solutions, functions],
     },
 ];
 
@@ -185,59 +208,46 @@ fn errors_table() -> Table {
     )
 }
 
-fn convergence(levels: usize, tuner: &Tuner<'_>) -> Result<Vec<Drawing>, Error> {
+/// HNUSS beside the others, of which it has the place after the last.
+const HNUSS: (&str, &str) = ("hnuss", "HNUSS");
+
+fn convergence(levels: usize, solution: &'static str, tuner: &Tuner<'_>) -> Result<Vec<Drawing>, Error> {
     let fans = [3, 5, 6, 7, 8].map(|n| (format!("fan{n}"), format!("$N$ = {n}"), shapes::fan(n)));
     let square = (
         "square3355".to_owned(),
         "square, $N$ = 3, 5".to_owned(),
         shapes::square3355(),
     );
-    let meshes: Vec<_> = fans.into_iter().chain([square]).collect();
-    let mut drawings = Vec::new();
-    for solution in ["exp", "sin"] {
-        let mut table = errors_table();
-        let mut panels: Vec<(String, Vec<Run>)> = Vec::new();
-        for (mesh_name, title, mesh) in &meshes {
-            // the square has eight times the faces of a fan
-            let levels = if mesh_name == "square3355" {
-                levels.saturating_sub(1).max(1)
-            } else {
-                levels
-            };
-            let setting = Setting {
-                mesh_name,
-                mesh,
-                problem: Problem::Poisson,
-                solution,
-                options: Options::default(),
-                levels,
-            };
-            let mut runs = Vec::new();
-            for (place, (spec, label)) in SCHEMES.into_iter().enumerate() {
-                let run = setting.run(spec, label, place, tuner)?;
-                setting.push(&mut table, spec, &run);
-                runs.push(run);
-            }
-            panels.push((title.clone(), runs));
+    let schemes: Vec<(usize, (&str, &str))> = SCHEMES.into_iter().chain([HNUSS]).enumerate().collect();
+    let mut table = errors_table();
+    let mut panels: Vec<(String, Vec<Run>)> = Vec::new();
+    for (mesh_name, title, mesh) in fans.into_iter().chain([square]) {
+        let setting = Setting {
+            mesh_name: &mesh_name,
+            mesh: &mesh,
+            problem: Problem::Poisson,
+            solution,
+            options: Options::default(),
+            levels,
+        };
+        let mut runs = Vec::new();
+        for &(place, (spec, label)) in &schemes {
+            let run = setting.run(spec, label, place, tuner)?;
+            setting.push(&mut table, spec, &run);
+            runs.push(run);
         }
-        for name in ["L2", "H1"] {
-            let charts = panels.iter().map(|(title, runs)| (title.clone(), chart(runs, name)));
-            let data = if name == "L2" {
-                vec![("", table.clone())]
-            } else {
-                Vec::new()
-            };
-            drawings.push(Drawing {
-                stem: match name {
-                    "L2" => format!("convergence-{solution}"),
-                    _ => format!("convergence-{solution}-{}", name.to_lowercase()),
-                },
-                figure: figure(&format!("Errors of {solution} in {name}"), charts.collect()),
-                data,
-            });
-        }
+        panels.push((title, runs));
     }
-    Ok(drawings)
+    let drawing = |(name, suffix, data): (&str, &str, Vec<(&'static str, Table)>)| {
+        let charts = panels.iter().map(|(title, runs)| (title.clone(), chart(runs, name)));
+        Drawing {
+            stem: format!("convergence-{solution}{suffix}"),
+            figure: figure(&format!("Errors of {solution} in {name}"), charts.collect()),
+            data,
+        }
+    };
+    let all = [("L2", "", vec![("", table)]), ("H1", "-h1", Vec::new())];
+    Ok(all.map(drawing).into())
 }
 
 fn annuli(levels: usize, tuner: &Tuner<'_>) -> Result<Vec<Drawing>, Error> {
