@@ -68,8 +68,8 @@ impl Study<'_> {
         Ok(tiles)
     }
 
-    /// The coefficients on level 0 of the function of a control point, which is 1 there and 0 at all others; under
-    /// HNUSS of a vertex of the mesh whose hybrid net is level 0.
+    /// The coefficients on level 0 of the function of a control point, which is 1 there and 0 at all others;
+    /// under HNUSS of a vertex of the mesh whose hybrid net is level 0.
     ///
     /// # Errors
     /// [`Error::Range`] for a point that is none.

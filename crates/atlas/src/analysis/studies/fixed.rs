@@ -1,7 +1,7 @@
 //! Errors against lambda at fixed levels.
 //!
-//! The setting: Poisson's equation, `e^((x+y)/2)`, fans, tuned stencils of the lambda-scheme, relative errors.
-//! It is no published study.
+//! The setting: Poisson's equation, `e^((x+y)/2)`, fans, tuned stencils of the lambda-scheme, relative
+//! errors. It is no published study.
 
 use super::chart::figure;
 use super::with;
