@@ -5,7 +5,6 @@
 
 use crate::error::Error;
 use crate::progress::{Progress, each};
-use crate::table::short;
 use eigenring_scheme::lambda::{Bounds, LambdaEntry, Relaxation};
 use eigenring_tune::global::{Global, global};
 use eigenring_tune::objective::{Normalisation, Settings};
@@ -71,6 +70,7 @@ impl Parameters {
             quadrature: settings.quadrature_order,
             normalisation: match settings.normalisation {
                 Normalisation::UnitRing => "unit-ring",
+                Normalisation::Relative => "relative",
                 _ => "paper",
             }
             .to_owned(),
@@ -96,6 +96,7 @@ impl Parameters {
                 weighted: self.weighted,
                 normalisation: match self.normalisation.as_str() {
                     "unit-ring" => Normalisation::UnitRing,
+                    "relative" => Normalisation::Relative,
                     _ => Normalisation::Paper,
                 },
             },
@@ -140,26 +141,10 @@ impl Parameters {
 /// Refuses parameters with which no study can be made, before anything is written.
 ///
 /// # Errors
-/// [`Error::Range`] for a valence beyond the tables; those of the margin and of the objective's constants.
+/// Those of the margin, of the objective's constants, and of a valence at which mu reaches lambda.
 pub fn check(parameters: &Parameters) -> Result<(), Error> {
     let (options, range) = parameters.options();
     for &valence in &parameters.valences {
-        // the knots of the splines lie on both sides of lambda_l
-        let lambda_l = |valence| Relaxation::new(valence).map(|rule| rule.lambda_l());
-        if lambda_l(valence)? >= range.end {
-            let inside = |&valence: &usize| lambda_l(valence).is_ok_and(|lambda| lambda < range.end);
-            // lambda_l grows with the valence
-            let last = (3..valence).rfind(inside).unwrap_or(3);
-            return Err(Error::Range {
-                what: "valence",
-                given: format!(
-                    "{valence}, whose curvature is bounded only from lambda = {} on, beyond the tables' {},",
-                    short(lambda_l(valence)?),
-                    range.end
-                ),
-                accepted: format!("3 to {last} for tables (tune and stencil take more)"),
-            });
-        }
         // the margin and the constants of the objective are refused here
         Problem::new(valence, range.start, &options)?;
     }

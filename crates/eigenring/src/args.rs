@@ -377,7 +377,7 @@ pub struct ObjectiveArgs {
     /// Ratio alpha/beta of the vertex stencil's total weights
     #[arg(long, default_value_t = 6.0, value_name = "X", value_parser = number, allow_negative_numbers = true)]
     pub phi: f64,
-    /// Scale of the eigenvectors: unit norm over five rings, or unit first edge neighbour
+    /// Scale of the eigenvectors: unit norm over five rings, unit first edge neighbour, or none
     #[arg(long, value_enum, default_value_t)]
     pub normalisation: NormalisationArg,
 }
@@ -390,6 +390,8 @@ pub enum NormalisationArg {
     Paper,
     /// First edge neighbour at distance 1.
     UnitRing,
+    /// Each part divided by the mean square of its map's second derivatives.
+    Relative,
 }
 
 impl ObjectiveArgs {
@@ -403,6 +405,7 @@ impl ObjectiveArgs {
             normalisation: match self.normalisation {
                 NormalisationArg::Paper => Normalisation::Paper,
                 NormalisationArg::UnitRing => Normalisation::UnitRing,
+                NormalisationArg::Relative => Normalisation::Relative,
             },
         }
     }

@@ -1,5 +1,7 @@
 //! What is shown of the lambda-scheme beyond the papers' tables.
 
+mod margin;
+mod normalisation;
 pub mod optimality;
 
 use crate::error::Error;
@@ -10,6 +12,10 @@ use crate::progress::Progress;
 pub enum Study {
     /// That no stencil is better than the tabulated ones.
     Optimality,
+    /// What it costs to keep eigenvalues apart and curvatures of one sign.
+    Margin,
+    /// The best lambda without a scale of eigenvectors.
+    Normalisation,
 }
 
 /// The folder of their files.
@@ -23,6 +29,8 @@ impl Study {
     pub fn files(self, progress: &dyn Progress) -> Result<Vec<(String, Vec<u8>)>, Error> {
         match self {
             Study::Optimality => optimality::files(progress),
+            Study::Margin => margin::files(progress),
+            Study::Normalisation => normalisation::files(progress),
         }
     }
 }

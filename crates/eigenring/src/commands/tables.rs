@@ -40,7 +40,10 @@ use std::process::ExitCode;
 ///
 /// With --study: OUT/studies/ gets what is shown of the lambda-scheme beyond the papers' tables. optimality:
 /// that no admissible stencil at lambda_C* is better than the tuned one, for valences 5 to 20, with the
-/// weight and without, by interval branch and bound.
+/// weight and without, by interval branch and bound. margin: which objectives, distances of the next
+/// eigenvalue from mu and signs of curvature go together at valences 5 to 8 (a Pareto front). normalisation:
+/// lambda_C* and its stencil where no scale of the eigenvectors enters the objective, beside those of the
+/// paper.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  eigenring tables                         all of results/lambda, valences 3 to 20\n  eigenring tables --valences 5,6          two valences, below eigenring-out\n  eigenring tables --starts full --format latex\n  eigenring tables --scheme tension        all of results/tension"
@@ -95,12 +98,18 @@ pub enum Tabulated {
 pub enum StudyArg {
     /// That no stencil is better than the tuned ones.
     Optimality,
+    /// What it costs to keep eigenvalues apart and curvatures of one sign.
+    Margin,
+    /// The best lambda without a scale of eigenvectors.
+    Normalisation,
 }
 
 impl StudyArg {
     fn study(self) -> Study {
         match self {
             StudyArg::Optimality => Study::Optimality,
+            StudyArg::Margin => Study::Margin,
+            StudyArg::Normalisation => Study::Normalisation,
         }
     }
 }

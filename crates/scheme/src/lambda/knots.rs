@@ -11,14 +11,15 @@ use serde::{Deserialize, Serialize};
 /// a a a a  (a+b)/2  b b b  (b+c)/2  c c c  (c+d)/2  d d d  (d+e)/2  e e e e        21 knots, 17 coefficients
 /// ```
 ///
-/// `c` is lambda_l, the smallest lambda with bounded curvature.
+/// `c` is lambda_l, the smallest lambda with bounded curvature, or, where that is beyond `e` (from N = 24 on
+/// with the paper's 0.9), a kink like the other two.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LambdaKnots {
     /// Start of the domain, 0.15 in the paper.
     pub a: f64,
     /// First triple knot.
     pub b: f64,
-    /// Second triple knot, lambda_l.
+    /// Second triple knot, lambda_l if that is below the end.
     pub c: f64,
     /// Third triple knot.
     pub d: f64,

@@ -309,7 +309,8 @@ impl LambdaEntry {
         let LambdaKnots { a, e, .. } = self.knots;
         for (field, value, lower, upper) in [
             ("lambda_optimal", self.lambda_optimal, a, e),
-            ("lambda_l", self.lambda_l, a, e),
+            // beyond the splines' range from N = 24 on
+            ("lambda_l", self.lambda_l, a, 1.0),
             ("lambda_r1", self.lambda_r1, a, self.lambda_r2.min(e)),
             ("lambda_r2", self.lambda_r2, a, e),
             ("phi", self.phi, f64::MIN_POSITIVE, f64::MAX),

@@ -42,6 +42,14 @@ pub(super) struct Slope<const C: usize> {
     pub by_height: [f64; C],
 }
 
+impl<const C: usize> Slope<C> {
+    const ZERO: Self = Slope {
+        value: 0.0,
+        by_radius: 0.0,
+        by_height: [0.0; C],
+    };
+}
+
 /// What an evaluation yields, unnormalised: fits and parts, saddles in the order real, imaginary.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Outcome {
@@ -176,6 +184,15 @@ impl<const R: usize> Moment<R> {
     }
 }
 
+/// From what the second derivatives' squared distance is taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum From {
+    /// From the best constants.
+    Fit,
+    /// From zero.
+    Zero,
+}
+
 /// Evaluates all three parts; without `GRADIENT` the same value, bit for bit, and meaningless derivatives.
 pub(super) fn evaluate<const GRADIENT: bool>(
     fields: &Fields,
@@ -183,6 +200,7 @@ pub(super) fn evaluate<const GRADIENT: bool>(
     annuli: &Annuli,
     weight: Option<&Weight>,
     coefficients: &Coefficients<f64>,
+    from: From,
 ) -> Outcome {
     // once for the registers that the processor has; nothing is contracted or reordered, so that the bits are
     // the same on all of them
@@ -192,6 +210,7 @@ pub(super) fn evaluate<const GRADIENT: bool>(
         annuli,
         weight,
         coefficients,
+        from,
     })
 }
 
@@ -202,6 +221,7 @@ struct Kernel<'a, const GRADIENT: bool> {
     annuli: &'a Annuli,
     weight: Option<&'a Weight>,
     coefficients: &'a Coefficients<f64>,
+    from: From,
 }
 
 impl<const GRADIENT: bool> pulp::WithSimd for Kernel<'_, GRADIENT> {
@@ -209,7 +229,14 @@ impl<const GRADIENT: bool> pulp::WithSimd for Kernel<'_, GRADIENT> {
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) -> Outcome {
-        at_width::<GRADIENT>(self.fields, self.turns, self.annuli, self.weight, self.coefficients)
+        at_width::<GRADIENT>(
+            self.fields,
+            self.turns,
+            self.annuli,
+            self.weight,
+            self.coefficients,
+            self.from,
+        )
     }
 }
 
@@ -220,6 +247,7 @@ fn at_width<const GRADIENT: bool>(
     annuli: &Annuli,
     weight: Option<&Weight>,
     coefficients: &Coefficients<f64>,
+    from: From,
 ) -> Outcome {
     let mut samples = Vec::with_capacity(fields.blocks.len());
     let mut rates = Vec::with_capacity(if GRADIENT { fields.blocks.len() } else { 0 });
@@ -261,8 +289,13 @@ fn at_width<const GRADIENT: bool>(
         samples.push(point);
     }
     let (total, growth) = (area.value.sum(), area.rates[0].sum());
-    let cup_fit = cup.fit::<3>(annuli.rho, total, growth);
-    let saddle_fits = saddles.map(|moment| moment.fit::<2>(annuli.rho, total, growth));
+    let (cup_fit, saddle_fits) = match from {
+        From::Fit => (
+            cup.fit::<3>(annuli.rho, total, growth),
+            saddles.map(|moment| moment.fit::<2>(annuli.rho, total, growth)),
+        ),
+        From::Zero => (Slope::ZERO, [Slope::ZERO; 2]),
+    };
 
     let mut cup = Sum::<4>::ZERO;
     let mut parts = [Sum::<3>::ZERO; 2];

@@ -39,7 +39,7 @@ pub use settings::{Error, Normalisation, Settings};
 use eigenring_scheme::lambda::Plane;
 use eigenring_spectral::SecondOrder;
 use eigenring_spline::{Dual, Scalar};
-use evaluate::{Coefficients, Outcome, SIGNS, Slope, curvature_extremes, evaluate};
+use evaluate::{Coefficients, From, Outcome, SIGNS, Slope, curvature_extremes, evaluate};
 use fields::{Fields, Turns};
 use maps::Annuli;
 pub(crate) use weight::Weight;
@@ -182,12 +182,7 @@ impl Objective {
     pub fn parts(&self, f2: f64, f3: f64) -> Result<Parts, Error> {
         let coefficients = self.coefficients(f2, f3);
         let outcome = self.outcome::<false>(&coefficients, f2, f3)?;
-        let Coefficients { radius, saddle, cup } = coefficients;
-        let plain = Coefficients {
-            radius: radius.value,
-            saddle: saddle.map(|c| c.value),
-            cup: cup.map(|c| c.value),
-        };
+        let plain = plain(&coefficients);
         let (cup_range, saddle_ranges) = curvature_extremes(&self.fields, &self.turns, &plain);
         let scales = self.scales(&coefficients);
         // second derivatives scale by `scale`, which carries the eigenvector's sign; their products by its
@@ -262,16 +257,13 @@ impl Objective {
     }
 
     fn outcome<const GRADIENT: bool>(&self, c: &Coefficients<Dual2>, f2: f64, f3: f64) -> Result<Outcome, Error> {
-        let plain = Coefficients {
-            radius: c.radius.value,
-            saddle: c.saddle.map(|c| c.value),
-            cup: c.cup.map(|c| c.value),
-        };
+        let plain = plain(c);
         let finite = (plain.saddle.iter()).chain(&plain.cup).all(|c| c.is_finite());
         if !(f2.is_finite() && f3.is_finite() && finite && plain.radius.is_finite()) {
             return Err(Error::NotFinite { f2, f3 });
         }
-        let outcome = evaluate::<GRADIENT>(&self.fields, &self.turns, &self.annuli, self.weight.as_ref(), &plain);
+        let weight = self.weight.as_ref();
+        let outcome = evaluate::<GRADIENT>(&self.fields, &self.turns, &self.annuli, weight, &plain, From::Fit);
         let jacobian = outcome.jacobian_min;
         if jacobian > 0.0 {
             Ok(outcome)
@@ -312,7 +304,30 @@ impl Objective {
                     saddles: self.gram.saddles.map(|gram| scale(form(&gram, saddle), edge)),
                 }
             }
+            Normalisation::Relative => {
+                let plain = plain(coefficients);
+                let squares = evaluate::<true>(&self.fields, &self.turns, &self.annuli, None, &plain, From::Zero);
+                let scale = |mean_square: Dual2, like: Dual2| {
+                    let scale = Dual2::one() / mean_square.sqrt();
+                    if like.value < 0.0 { -scale } else { scale }
+                };
+                Scales {
+                    cup: scale(chain(&squares.cup, *radius, cup), cup_edge),
+                    saddles: squares
+                        .saddles
+                        .map(|square| scale(chain(&square, *radius, saddle), edge)),
+                }
+            }
         }
+    }
+}
+
+/// The values of the coefficients.
+fn plain(coefficients: &Coefficients<Dual2>) -> Coefficients<f64> {
+    Coefficients {
+        radius: coefficients.radius.value,
+        saddle: coefficients.saddle.map(|c| c.value),
+        cup: coefficients.cup.map(|c| c.value),
     }
 }
 

@@ -1,7 +1,7 @@
 //! What can be chosen about the objective, and what is refused.
 
-/// How the eigenvectors are scaled. The objective is not invariant: multiplying x, y by `p` and z by `q`
-/// multiplies its part by `(q / p^2)^2`, and as the scale depends on (f2, f3) and lambda, so does the
+/// How the eigenvectors are scaled. The objective itself is not invariant: multiplying x, y by `p` and z by
+/// `q` multiplies its part by `(q / p^2)^2`, and as the scale depends on (f2, f3) and lambda, so does the
 /// optimum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -13,6 +13,10 @@ pub enum Normalisation {
     /// The eigenvectors as they come: the edge neighbour on the x axis has the value 1 (for the second saddle
     /// at N = 4, which vanishes there, the first face neighbour).
     UnitRing,
+    /// Each part divided by the mean over Omega of the squares `z_xx^2 + z_xy^2 + z_yy^2` of its own map:
+    /// the part of them that no quadratic explains, between 0 and 1 without the weight. No scale of the
+    /// eigenvectors enters.
+    Relative,
 }
 
 /// The constants of the objective; [`Settings::default`] are the paper's.

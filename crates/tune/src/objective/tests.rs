@@ -140,3 +140,47 @@ fn large_valences_evaluate() {
         assert!(value > 0.0 && gradient.iter().all(|g| g.is_finite()));
     }
 }
+
+/// Relative parts are the same from either scale of the eigenvectors, and what the fit leaves and what it
+/// explains add up to the mean square.
+#[test]
+fn relative_parts_have_no_scale() {
+    for (valence, lambda, s, f2, f3) in [
+        (3, 0.5, 1.0, 0.26, 0.33),
+        (4, 0.55, 1.0, 0.26, 0.3025),
+        (7, 0.6, 1.0, 0.32, 0.12),
+        (13, 0.7, 1.03, 0.417, 0.001),
+    ] {
+        let plane = Plane::new(valence, lambda, s).unwrap();
+        let objective = |normalisation, weighted| {
+            let settings = Settings {
+                normalisation,
+                weighted,
+                ..Settings::default()
+            };
+            Objective::new(plane, settings).unwrap()
+        };
+        let relative = objective(Normalisation::Relative, true);
+        let (value, gradient) = relative.value_and_gradient(f2, f3).unwrap();
+        for scale in [Normalisation::Paper, Normalisation::UnitRing] {
+            let list = |parts: Parts| [parts.cup, parts.saddle_re, parts.saddle_im];
+            let parts = list(objective(scale, true).parts(f2, f3).unwrap());
+            let bare = list(objective(scale, false).parts(f2, f3).unwrap());
+            let ratio = |(part, bare): (Part, Part)| {
+                part.value / (bare.value + bare.a * bare.a + bare.b * bare.b + bare.c * bare.c)
+            };
+            let sum: f64 = parts.into_iter().zip(bare).map(ratio).sum();
+            assert_relative_eq!(sum, value, max_relative = 1e-11);
+        }
+        assert_relative_eq!(relative.parts(f2, f3).unwrap().total(), value, max_relative = 1e-13);
+        let step = 1e-6;
+        let at = |d2: f64, d3: f64| relative.value(f2 + d2, f3 + d3).unwrap();
+        let difference = [
+            (at(step, 0.0) - at(-step, 0.0)) / (2.0 * step),
+            (at(0.0, step) - at(0.0, -step)) / (2.0 * step),
+        ];
+        for (found, expected) in gradient.into_iter().zip(difference) {
+            assert_relative_eq!(found, expected, max_relative = 1e-6, epsilon = 1e-7);
+        }
+    }
+}

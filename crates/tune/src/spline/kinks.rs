@@ -7,6 +7,9 @@
 //! (lambda_b), one to its right (lambda_d). The pair is chosen whose unconstrained least-squares splines of
 //! f2 and f3 leave the smallest residual.
 //!
+//! Where lambda_l is beyond the range, as it is from N = 24 on with the paper's, s is smooth on all of it,
+//! and lambda_c is as free as the other two: of all triples the best is chosen.
+//!
 //! Defaults, as in the paper's Table 1, stand in where there is no kink; there the splines stay twice
 //! differentiable.
 
@@ -23,6 +26,8 @@ pub enum Slot {
     B,
     /// lambda_d, right of lambda_l.
     D,
+    /// Any of b, c and d, where lambda_l is beyond the range.
+    Any,
 }
 
 /// Why a lambda is a candidate.
@@ -75,13 +80,13 @@ const NEEDED: usize = 3;
 const RANK_TOLERANCE: f64 = 1e-6;
 const DEFAULTS: [f64; 5] = [0.2, 0.25, 0.3, 0.5, 0.55];
 
-/// Chooses lambda_b and lambda_d; see the module page.
+/// Chooses lambda_b and lambda_d, and lambda_c if lambda_l is not between the ends; see the module page.
 ///
 /// `samples` ascend in lambda; `ends` are lambda_a and lambda_e; `optimum` = (lambda, f2, f3) is
 /// interpolated; `analytic` are the kinks of s.
 ///
 /// # Errors
-/// [`FitError::NoKnots`] if no pair leaves enough samples between neighbours.
+/// [`FitError::NoKnots`] if no choice leaves enough samples between neighbours.
 pub fn choose_knots(
     samples: &[StencilSample],
     ends: (f64, f64),
@@ -93,45 +98,59 @@ pub fn choose_knots(
         let inside = samples.iter().filter(|s| left < s.lambda && s.lambda < right);
         left < right && inside.count() >= NEEDED
     };
-    let (mut bs, mut ds): (Vec<Candidate>, Vec<Candidate>) = candidates(samples, ends, lambda_l, analytic)
-        .into_iter()
-        .partition(|candidate| candidate.slot == Slot::B);
+    let mut candidates = candidates(samples, ends, lambda_l, analytic);
+    let fixed = Candidate {
+        lambda: lambda_l,
+        slot: Slot::Any,
+        source: Source::Analytic,
+        residual: None,
+    };
+    let inside = ends.0 < lambda_l && lambda_l < ends.1;
+    let middles: Vec<(Option<usize>, Candidate)> = if inside {
+        vec![(None, fixed)]
+    } else {
+        (candidates.iter().enumerate()).map(|(i, c)| (Some(i), *c)).collect()
+    };
     let mut best: Option<KnotChoice> = None;
-    for b in bs
-        .iter_mut()
-        .filter(|b| enough(ends.0, b.lambda) && enough(b.lambda, lambda_l))
-    {
-        for d in ds
-            .iter_mut()
-            .filter(|d| enough(lambda_l, d.lambda) && enough(d.lambda, ends.1))
-        {
-            let knots = LambdaKnots {
-                a: ends.0,
-                b: b.lambda,
-                c: lambda_l,
-                d: d.lambda,
-                e: ends.1,
-            };
-            let kinks = [b.source != Source::Default, true, d.source != Source::Default];
-            let Some(residual) = residual(&knots, kinks, samples, optimum)? else {
+    for (middle, c) in middles {
+        for left in 0..candidates.len() {
+            let b = candidates[left];
+            if !(enough(ends.0, b.lambda) && enough(b.lambda, c.lambda)) {
                 continue;
-            };
-            for candidate in [&mut *b, d] {
-                candidate.residual = Some(candidate.residual.map_or(residual, |known| known.min(residual)));
             }
-            if best.as_ref().is_none_or(|best| residual < best.residual) {
-                best = Some(KnotChoice {
-                    knots,
-                    kinks,
-                    residual,
-                    candidates: Vec::new(),
-                });
+            for right in left + 1..candidates.len() {
+                let d = candidates[right];
+                if !(enough(c.lambda, d.lambda) && enough(d.lambda, ends.1)) {
+                    continue;
+                }
+                let knots = LambdaKnots {
+                    a: ends.0,
+                    b: b.lambda,
+                    c: c.lambda,
+                    d: d.lambda,
+                    e: ends.1,
+                };
+                let kinks = [b, c, d].map(|candidate| candidate.source != Source::Default);
+                let Some(residual) = residual(&knots, kinks, samples, optimum)? else {
+                    continue;
+                };
+                for index in [Some(left), middle, Some(right)].into_iter().flatten() {
+                    let known = &mut candidates[index].residual;
+                    *known = Some(known.map_or(residual, |known| known.min(residual)));
+                }
+                if best.as_ref().is_none_or(|best| residual < best.residual) {
+                    best = Some(KnotChoice {
+                        knots,
+                        kinks,
+                        residual,
+                        candidates: Vec::new(),
+                    });
+                }
             }
         }
     }
     let mut best = best.ok_or(FitError::NoKnots { needed: NEEDED })?;
-    best.candidates = bs;
-    best.candidates.append(&mut ds);
+    best.candidates = candidates;
     Ok(best)
 }
 
@@ -148,7 +167,7 @@ fn candidates(samples: &[StencilSample], ends: (f64, f64), lambda_l: f64, analyt
         }
     }
     found.extend(DEFAULTS.map(|lambda| (lambda, Source::Default)));
-    if lambda_l >= DEFAULTS[3] {
+    if lambda_l >= DEFAULTS[3] && lambda_l < ends.1 {
         found.push((0.5 * (lambda_l + ends.1), Source::Default));
     }
     found.retain(|&(lambda, _)| ends.0 < lambda && lambda < ends.1 && lambda != lambda_l);
@@ -157,7 +176,11 @@ fn candidates(samples: &[StencilSample], ends: (f64, f64), lambda_l: f64, analyt
     found.dedup_by(|later, earlier| later.0 == earlier.0);
     let candidate = |(lambda, source)| Candidate {
         lambda,
-        slot: if lambda < lambda_l { Slot::B } else { Slot::D },
+        slot: match lambda < lambda_l {
+            _ if lambda_l >= ends.1 => Slot::Any,
+            true => Slot::B,
+            false => Slot::D,
+        },
         source,
         residual: None,
     };

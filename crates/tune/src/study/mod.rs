@@ -203,8 +203,7 @@ impl Study {
     /// lambda, computed with the same options.
     ///
     /// # Errors
-    /// Those of the steps; [`Error::Fit`] if lambda_l is not inside the range (N > 23 with the paper's
-    /// range): the structure of Eq. 21 has a triple knot there.
+    /// Those of the steps.
     pub fn new(samples: &[LambdaSample], range: &Range, options: &Options, knots: Knots) -> Result<Self, Error> {
         let global = global(samples, options)?;
         let optimum = global.optimum();
@@ -478,6 +477,7 @@ fn choose(
             slot: match candidate.slot {
                 Slot::B => "b",
                 Slot::D => "d",
+                Slot::Any => "b, c or d",
             }
             .to_owned(),
             source: match candidate.source {
