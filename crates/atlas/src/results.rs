@@ -117,7 +117,8 @@ fn command(parameters: &Parameters) -> String {
     let p = parameters;
     option(p.bounds != usual.bounds, format!(" --bounds {}", p.bounds));
     option(p.margin != usual.margin, format!(" --margin {}", p.margin));
-    option(p.knots != usual.knots, " --knots paper".to_owned());
+    option(p.knots == Knots::Paper, " --knots paper".to_owned());
+    option(p.knots == Knots::Sharp, " --knots sharp".to_owned());
     option(p.weighted != usual.weighted, " --unweighted".to_owned());
     option(p.epsilon != usual.epsilon, format!(" --epsilon {}", p.epsilon));
     option(p.weight != usual.weight, format!(" --weight {}", p.weight));

@@ -82,6 +82,11 @@ impl Relaxation {
         Ok(Relaxation { valence })
     }
 
+    /// The valence.
+    pub fn valence(&self) -> usize {
+        self.valence
+    }
+
     /// The smallest lambda with bounded curvature (`s_l = 1`).
     pub fn lambda_l(&self) -> f64 {
         self.lambda_l_of(self.last_term())

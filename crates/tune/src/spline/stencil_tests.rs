@@ -20,6 +20,7 @@ fn kinks_are_found_and_chosen() {
             f2: function(lambda, 0.5),
             f3: function(lambda, -0.8),
             active: u32::from(lambda > kink_b) + 2 * u32::from(lambda > kink_d) + 4 * u32::from(lambda > 0.8),
+            weights: [1.0; 2],
         })
         .collect();
     let optimum = (0.6, function(0.6, 0.5), function(0.6, -0.8));
@@ -51,6 +52,7 @@ fn kinks_are_found_and_chosen() {
                 f2: lambda.sin(),
                 f3: lambda.cos(),
                 active: 0,
+                weights: [1.0; 2],
             })
             .collect();
         let optimum = (0.6, 0.6_f64.sin(), 0.6_f64.cos());
@@ -123,7 +125,13 @@ fn stencils_stay_feasible_along_all_lambda() {
                 let (f2, f3) = nearest(lambda);
                 let wish = (0.75 - 0.75 * lambda, 0.9 * (lambda - 0.5));
                 let active = u32::from(f2 != wish.0) + 2 * u32::from(f3 != wish.1);
-                StencilSample { lambda, f2, f3, active }
+                StencilSample {
+                    lambda,
+                    f2,
+                    f3,
+                    active,
+                    weights: [1.0; 2],
+                }
             })
             .collect();
         let (f2, f3) = nearest(0.7);

@@ -17,6 +17,8 @@ pub struct StencilSample {
     /// Label of the set of bounds that are active at the optimum, e.g. one bit a bound. Only compared for
     /// equality.
     pub active: u32,
+    /// Weights of the squared distances in f2 and f3, positive.
+    pub weights: [f64; 2],
 }
 
 /// An interval of admissible values; infinite ends where there is no bound.
@@ -88,11 +90,14 @@ pub fn fit_stencils<B: StencilBounds>(
     let domains: Vec<B::Domain> = lambdas.iter().map(|&lambda| bounds.domain(lambda)).collect();
     let f3_bands: Vec<Band> = domains.iter().map(|domain| bounds.f3(domain)).collect();
 
-    let fit = |value: fn(&StencilSample) -> f64, fixed: &[(f64, f64)], bands: &[Band]| {
-        let sample = |s: &StencilSample| Datum {
-            lambda: s.lambda,
-            value: value(s),
-            weight: 1.0,
+    let fit = |value: fn(&StencilSample) -> (f64, f64), fixed: &[(f64, f64)], bands: &[Band]| {
+        let sample = |s: &StencilSample| {
+            let (value, weight) = value(s);
+            Datum {
+                lambda: s.lambda,
+                value,
+                weight,
+            }
         };
         let samples: Vec<Datum> = samples.iter().map(sample).collect();
         let bound = |(&lambda, &Band { lower, upper })| Bound { lambda, lower, upper };
@@ -107,7 +112,7 @@ pub fn fit_stencils<B: StencilBounds>(
         .solve()
     };
     let fixed_f3: Vec<(f64, f64)> = fixed.iter().map(|&(lambda, _, f3)| (lambda, f3)).collect();
-    let f3 = fit(|s| s.f3, &fixed_f3, &f3_bands)?;
+    let f3 = fit(|s| (s.f3, s.weights[1]), &fixed_f3, &f3_bands)?;
     let mut f2_bands = Vec::with_capacity(lambdas.len());
     for ((&lambda, domain), band) in lambdas.iter().zip(&domains).zip(&f3_bands) {
         // NaN cannot occur: the first fit has refused lambdas outside of the knots
@@ -116,6 +121,6 @@ pub fn fit_stencils<B: StencilBounds>(
         f2_bands.push(bounds.f2(domain, value.max(band.lower).min(band.upper)));
     }
     let fixed_f2: Vec<(f64, f64)> = fixed.iter().map(|&(lambda, f2, _)| (lambda, f2)).collect();
-    let f2 = fit(|s| s.f2, &fixed_f2, &f2_bands)?;
+    let f2 = fit(|s| (s.f2, s.weights[0]), &fixed_f2, &f2_bands)?;
     Ok(StencilFit { knots: *knots, f2, f3 })
 }

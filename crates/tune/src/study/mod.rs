@@ -7,6 +7,7 @@
 
 mod admissible;
 mod recommended;
+mod sharp;
 
 pub use eigenring_scheme::lambda::{LAMBDA_A, LAMBDA_M, LAMBDA_R1};
 pub use recommended::second_ring_convexity;
@@ -18,6 +19,7 @@ use crate::sweep::{self, BranchSample, LambdaSample, Options, Range, branch};
 use admissible::Admissible;
 use eigenring_scheme::lambda::{LambdaEntry, LambdaKnots, PAPER_TABLE_1, PaperRow, Relaxation};
 use serde::{Deserialize, Serialize};
+use sharp::Sharp;
 
 /// The relative margin with which the splines keep within the eigenvalue bounds: half of that of the samples,
 /// so that a spline may pass between them.
@@ -50,6 +52,9 @@ pub enum Knots {
     Detected,
     /// Those of the paper's Table 1, where it has the valence.
     Paper,
+    /// Those candidates, and that fit, with which the objective of the splines exceeds that of the samples
+    /// least: the maximum of `E/E_sample - 1` instead of the squares of distances in f2 and f3.
+    Sharp,
 }
 
 /// The tabulated results of one valence.
@@ -227,11 +232,34 @@ impl Study {
             .chain(at_kink.map(|sample| (sample.lambda, sample.f2, sample.f3)))
             .collect();
         let fit = fit_feasible(&values, kinks, &labelled, &fixed, range, &admissible).map_err(failed)?;
+        let entry = |values, fit: &StencilFit| LambdaEntry {
+            valence,
+            knots: values,
+            f2: coefficients(&fit.f2),
+            f3: coefficients(&fit.f3),
+            lambda_optimal: optimum.lambda,
+            lambda_l,
+            lambda_r1: LAMBDA_R1,
+            lambda_r2: range.end,
+            phi: options.phi,
+        };
+        let (values, kinks, fit) = if knots == Knots::Sharp {
+            let sharp = Sharp {
+                samples: &samples,
+                labelled: &labelled,
+                fixed: &fixed,
+                range,
+                options,
+                admissible: &admissible,
+                end: recommended::end(&entry(values, &fit), range.end)?,
+            };
+            let found = sharp.fit(values, kinks, &candidates).map_err(failed)?;
+            (found.knots, found.kinks, found.fit)
+        } else {
+            (values, kinks, fit)
+        };
         let [f2, f3] = [&fit.f2, &fit.f3].map(|fit| SplineTable {
-            coefficients: std::array::from_fn(|i| {
-                let coefficient = fit.spline.coefficients()[i];
-                if coefficient.abs() < ZERO { 0.0 } else { coefficient }
-            }),
+            coefficients: coefficients(fit),
             max_residual: fit.max_residual,
             worst_sample: fit.worst_sample,
             kkt: fit.kkt.worst(),
@@ -375,6 +403,13 @@ impl Study {
     }
 }
 
+fn coefficients(fit: &spline::Fit) -> [f64; LambdaKnots::DIMENSION] {
+    std::array::from_fn(|i| {
+        let coefficient = fit.spline.coefficients()[i];
+        if coefficient.abs() < ZERO { 0.0 } else { coefficient }
+    })
+}
+
 fn objective(valence: usize, lambda: f64, options: &Options) -> Result<Objective, Error> {
     let mut plane = Relaxation::new(valence)?.plane(lambda)?;
     plane.phi = options.phi;
@@ -450,6 +485,7 @@ fn label(samples: &[BranchSample]) -> Vec<StencilSample> {
             f2: sample.minimum.f2,
             f3: sample.minimum.f3,
             active: index as u32,
+            weights: [1.0; 2],
         });
     }
     labelled
