@@ -9,7 +9,7 @@
 use crate::error::Error;
 use crate::progress::{Progress, each};
 use crate::table::{Format, Table};
-use eigenring_figure::{Axis, Chart, Colour, Figure, Panel, Side, Stroke, Style, Width, decades_of};
+use eigenring_figure::{Axis, Chart, Figure, Panel, Side, Style, Width, decades_of, range_of};
 use eigenring_scheme::lambda::{Bounds, Relaxation};
 use eigenring_tune::objective::{Objective, Settings};
 use eigenring_tune::search::Starts;
@@ -18,7 +18,7 @@ use eigenring_tune::sweep::{Options, Problem};
 const VALENCES: [usize; 4] = [5, 6, 7, 8];
 
 /// Steps of lambda, from the end of the relaxation, where s is 1, to the end of the tables.
-const LAMBDAS: usize = 40;
+const LAMBDAS: usize = 80;
 const END: f64 = 0.9;
 
 /// Demanded margins: that of the tables, then twentieths.
@@ -42,14 +42,15 @@ struct Candidate {
 }
 
 impl Candidate {
+    /// What is wanted, each smaller the better, to the six digits to which a tuned stencil has it.
+    fn wanted(&self) -> [f64; 3] {
+        [self.objective, -self.margin, self.sign_change].map(|value| format!("{value:.5e}").parse().unwrap_or(value))
+    }
+
     /// Whether it is as good in everything and better in something.
     fn beats(&self, other: &Self) -> bool {
-        let pairs = [
-            (self.objective, other.objective),
-            (-self.margin, -other.margin),
-            (self.sign_change, other.sign_change),
-        ];
-        pairs.iter().all(|(own, others)| own <= others) && pairs.iter().any(|(own, others)| own < others)
+        let (own, others) = (self.wanted(), other.wanted());
+        own != others && own.iter().zip(&others).all(|(own, others)| own <= others)
     }
 }
 
@@ -95,14 +96,14 @@ fn candidates(valence: usize, lambda: f64) -> Result<Vec<Candidate>, Error> {
     Ok(found)
 }
 
-/// Those that no other one beats, by falling margin.
+/// Those that no other one beats, by falling margin; of equally good ones the first.
 fn front(mut all: Vec<Candidate>) -> Vec<Candidate> {
     all.sort_by(|a, b| {
-        let margin = b.margin.total_cmp(&a.margin);
-        margin
-            .then(a.objective.total_cmp(&b.objective))
-            .then(a.lambda.total_cmp(&b.lambda))
+        let [a_wanted, b_wanted] = [a, b].map(Candidate::wanted);
+        let by = |i: usize| a_wanted[i].total_cmp(&b_wanted[i]);
+        by(1).then(by(0)).then(by(2)).then(a.lambda.total_cmp(&b.lambda))
     });
+    all.dedup_by(|later, earlier| later.wanted() == earlier.wanted());
     let beaten: Vec<bool> = all.iter().map(|own| all.iter().any(|other| other.beats(own))).collect();
     all.into_iter()
         .zip(beaten)
@@ -155,13 +156,15 @@ fn figure(fronts: &[(usize, Vec<Candidate>)]) -> Figure {
     // what lies a hundred thousand times above the least is of no use to anybody
     let least = values.clone().fold(f64::INFINITY, f64::min);
     let range = decades_of(values.filter(|value| *value < 1e5 * least)).unwrap_or((1.0, 10.0));
+    let margins = fronts.iter().flat_map(|(_, front)| front.iter().map(|c| c.margin));
+    let margins = range_of(margins, 0.05).unwrap_or((0.0, 1.0));
     let mut whole = Figure::new(
         Width::Two,
         124.0,
         "The least objective against the margin of the next eigenvalue",
     );
     for (index, (valence, front)) in fronts.iter().enumerate() {
-        let axis = Axis::new("$1 - |λ_6|/μ$", (0.0, 1.0)).with_grid();
+        let axis = Axis::new("$1 - |λ_6|/μ$", margins).with_grid();
         let mut chart = Chart::new(axis, Axis::log("$E$", range).with_grid());
         let kinds: [(&str, usize, fn(&Candidate) -> bool); 2] = [
             ("any sign of curvature", 0, |_| true),
@@ -179,7 +182,6 @@ fn figure(fronts: &[(usize, Vec<Candidate>)]) -> Figure {
             }
             chart = chart.series(points, Style::line(colour)).label(label);
         }
-        chart = chart.vertical(0.0, "", Stroke::solid(Colour::GREY, 0.15));
         let panel = Panel::new(chart).title(format!("$N$ = {valence}")).legend(Side::Bottom);
         whole = whole.panel(index / 2, index % 2, panel);
     }

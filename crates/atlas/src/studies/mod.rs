@@ -3,6 +3,7 @@
 mod margin;
 mod normalisation;
 pub mod optimality;
+mod splines;
 
 use crate::error::Error;
 use crate::progress::Progress;
@@ -16,6 +17,10 @@ pub enum Study {
     Margin,
     /// The best lambda without a scale of eigenvectors.
     Normalisation,
+    /// Spline tables of the valences from 21 to 64.
+    Large,
+    /// Splines with as many coefficients that lose less.
+    Sharp,
 }
 
 /// The folder of their files.
@@ -31,6 +36,8 @@ impl Study {
             Study::Optimality => optimality::files(progress),
             Study::Margin => margin::files(progress),
             Study::Normalisation => normalisation::files(progress),
+            Study::Large => splines::large(progress),
+            Study::Sharp => splines::sharp(progress),
         }
     }
 }

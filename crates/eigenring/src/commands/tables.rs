@@ -44,6 +44,8 @@ use std::process::ExitCode;
 /// eigenvalue from mu and signs of curvature go together at valences 5 to 8 (a Pareto front). normalisation:
 /// lambda_C* and its stencil where no scale of the eigenvectors enters the objective, beside those of the
 /// paper.
+/// large: spline tables of the valences from 21 to 64. sharp: splines with as many coefficients that lose
+/// less against the samples, beside those of the paper's knots.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  eigenring tables                         all of results/lambda, valences 3 to 20\n  eigenring tables --valences 5,6          two valences, below eigenring-out\n  eigenring tables --starts full --format latex\n  eigenring tables --scheme tension        all of results/tension"
@@ -103,6 +105,10 @@ pub enum StudyArg {
     Margin,
     /// The best lambda without a scale of eigenvectors.
     Normalisation,
+    /// Spline tables of the valences from 21 to 64.
+    Large,
+    /// Splines with as many coefficients that lose less.
+    Sharp,
 }
 
 impl StudyArg {
@@ -111,6 +117,8 @@ impl StudyArg {
             StudyArg::Optimality => Study::Optimality,
             StudyArg::Margin => Study::Margin,
             StudyArg::Normalisation => Study::Normalisation,
+            StudyArg::Large => Study::Large,
+            StudyArg::Sharp => Study::Sharp,
         }
     }
 }
