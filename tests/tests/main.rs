@@ -13,6 +13,7 @@ mod formula_ranges;
 mod formula_schemes;
 mod generated;
 mod index;
+mod lambda_studies;
 mod limits;
 mod nonuniform_results;
 mod numbering_picture;
