@@ -9,7 +9,9 @@ use std::path::Path;
 
 /// The rows of a file, by column.
 fn rows(name: &str) -> Vec<BTreeMap<String, String>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../results/studies").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../results/studies")
+        .join(name);
     let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("results/studies/{name}: {error}"));
     let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned));
     let head: Vec<String> = lines.next().expect("a header").collect();
@@ -46,14 +48,24 @@ fn tuned_stencils_are_proven_the_best() {
         assert_eq!(lambda, entry.lambda_optimal);
         if weighted {
             let (tabulated_f2, tabulated_f3) = entry.optimal().unwrap();
-            assert!((f2 - tabulated_f2).abs() < 1e-7 && (f3 - tabulated_f3).abs() < 1e-7, "N = {valence}");
+            assert!(
+                (f2 - tabulated_f2).abs() < 1e-7 && (f3 - tabulated_f3).abs() < 1e-7,
+                "N = {valence}"
+            );
         }
         if valence <= 12 {
-            assert_eq!((row["status"].as_str(), row["undecided"].as_str()), ("proven", "0"), "N = {valence}");
+            assert_eq!(
+                (row["status"].as_str(), row["undecided"].as_str()),
+                ("proven", "0"),
+                "N = {valence}"
+            );
             assert!(number(row, "bound") >= (1.0 - 1.0001e-6) * total);
         }
     }
-    let both: Vec<(usize, &str)> = rows.iter().map(|row| (valence(row), row["weighted"].as_str())).collect();
+    let both: Vec<(usize, &str)> = rows
+        .iter()
+        .map(|row| (valence(row), row["weighted"].as_str()))
+        .collect();
     assert!((5..=12).all(|n| both.contains(&(n, "1")) && both.contains(&(n, "0"))));
 }
 
@@ -66,17 +78,23 @@ fn nothing_beats_what_is_on_the_front() {
         let beaten = rows.iter().filter(|other| valence(other) == valence(row)).any(|other| {
             let others = wanted(other);
             // by more than the digits that a tuned stencil has
-            others.iter().zip(&own).all(|(a, b)| a <= b)
-                && others.iter().zip(&own).any(|(a, b)| b - a > 1e-4 * b.abs())
+            others.iter().zip(&own).all(|(a, b)| a <= b) && others.iter().zip(&own).any(|(a, b)| b - a > 1e-4 * b.abs())
         });
         assert!(!beaten, "{row:?}");
         if index % 7 == 0 {
             let [lambda, f2, f3] = ["lambda", "f2", "f3"].map(|column| number(row, column));
             let plane = Relaxation::new(valence(row)).unwrap().plane(lambda).unwrap();
-            let parts = objective(valence(row), lambda, Settings::default()).parts(f2, f3).unwrap();
+            let parts = objective(valence(row), lambda, Settings::default())
+                .parts(f2, f3)
+                .unwrap();
             assert!((parts.total() - own[0]).abs() < 1e-9 * own[0]);
             assert!((parts.sign_change() - own[2]).abs() < 1e-9);
-            assert!(plane.slack(Bounds::Paper, -own[1] - 1e-9, f2, f3).iter().all(|(_, slack)| *slack > -1e-12));
+            assert!(
+                plane
+                    .slack(Bounds::Paper, -own[1] - 1e-9, f2, f3)
+                    .iter()
+                    .all(|(_, slack)| *slack > -1e-12)
+            );
         }
     }
     assert!((5..=8).all(|n| rows.iter().filter(|row| valence(row) == n).count() > 5));
@@ -100,7 +118,10 @@ fn relative_optima_are_minima() {
         assert!((at_paper - number(row, "relative_E")).abs() <= 1e-9 * at_paper + 1e-20);
         assert!(least <= at_paper && (lambda - paper[0]).abs() < 0.01, "N = {n}");
         // along f2, which no bound holds
-        assert!(value(lambda, f2 + 1e-4, f3) > least && value(lambda, f2 - 1e-4, f3) > least, "N = {n}");
+        assert!(
+            value(lambda, f2 + 1e-4, f3) > least && value(lambda, f2 - 1e-4, f3) > least,
+            "N = {n}"
+        );
     }
     assert_eq!(rows.len(), 18);
 }
@@ -120,18 +141,30 @@ fn sharper_splines_lose_less() {
 #[test]
 fn splines_of_large_valences_are_near_the_best() {
     let accuracy = rows("large_accuracy.csv");
-    assert_eq!(accuracy.iter().map(valence).collect::<Vec<_>>(), (21..=64).collect::<Vec<_>>());
+    assert_eq!(
+        accuracy.iter().map(valence).collect::<Vec<_>>(),
+        (21..=64).collect::<Vec<_>>()
+    );
     for row in &accuracy {
-        assert!(number(row, "excess_overall") < 0.03 && number(row, "slack") > -1e-12, "{row:?}");
+        assert!(
+            number(row, "excess_overall") < 0.03 && number(row, "slack") > -1e-12,
+            "{row:?}"
+        );
         assert!(number(row, "strictness") > 0.99e-6, "{row:?}");
     }
     // the stencil at lambda_C* against neighbours of its own
-    for row in rows("large_featured.csv").iter().filter(|row| row["name"] == "lambda_C") {
+    for row in rows("large_featured.csv")
+        .iter()
+        .filter(|row| row["name"] == "lambda_C")
+    {
         let (n, lambda) = (valence(row), number(row, "lambda"));
         let [f2, f3, total] = ["f2", "f3", "E"].map(|column| number(row, column));
         let objective = objective(n, lambda, Settings::default());
         let value = |d: f64| objective.value(f2 + d, f3).unwrap();
-        assert!((value(0.0) - total).abs() < 1e-9 * total && value(1e-5) > total && value(-1e-5) > total, "N = {n}");
+        assert!(
+            (value(0.0) - total).abs() < 1e-9 * total && value(1e-5) > total && value(-1e-5) > total,
+            "N = {n}"
+        );
         assert!(sample_lambdas(n).unwrap().len() == 100);
     }
 }

@@ -166,15 +166,11 @@ fn figure(fronts: &[(usize, Vec<Candidate>)]) -> Figure {
     for (index, (valence, front)) in fronts.iter().enumerate() {
         let axis = Axis::new("$1 - |λ_6|/μ$", margins).with_grid();
         let mut chart = Chart::new(axis, Axis::log("$E$", range).with_grid());
-        let kinds: [(&str, usize, fn(&Candidate) -> bool); 2] = [
-            ("any sign of curvature", 0, |_| true),
-            ("$K_m = 0$", 1, |c| c.sign_change == 0.0),
-        ];
-        for (label, colour, of) in kinds {
+        for (label, colour, signless) in [("any sign of curvature", 0, false), ("$K_m = 0$", 1, true)] {
             // by falling margin, so that the least so far is the least with at least this margin
             let mut lowest = f64::INFINITY;
             let mut points = Vec::new();
-            for c in front.iter().filter(|c| of(c)) {
+            for c in front.iter().filter(|c| !signless || c.sign_change == 0.0) {
                 if c.objective < lowest {
                     lowest = c.objective;
                     points.push([c.margin, lowest]);

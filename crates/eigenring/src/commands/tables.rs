@@ -39,7 +39,7 @@ use std::process::ExitCode;
 /// exist, the gaps of Lemma 1 on HNUSS, and reflection lines.
 ///
 /// With --study: OUT/studies/ gets what is shown of the lambda-scheme beyond the papers' tables. optimality:
-/// that no admissible stencil at lambda_C* is better than the tuned one, for valences 5 to 20, with the
+/// that no admissible stencil at lambda_C* is better than the tuned one, for valences 5 to 12, with the
 /// weight and without, by interval branch and bound. margin: which objectives, distances of the next
 /// eigenvalue from mu and signs of curvature go together at valences 5 to 8 (a Pareto front). normalisation:
 /// lambda_C* and its stencil where no scale of the eigenvectors enters the objective, beside those of the
