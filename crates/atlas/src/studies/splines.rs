@@ -5,8 +5,7 @@ use crate::progress::Progress;
 use crate::results::tables;
 use crate::run::{Parameters, studies};
 use crate::table::{Format, Table};
-use eigenring_scheme::lambda::PAPER_TABLE_1;
-use eigenring_tune::study::{Knots, Study};
+use eigenring_tune::study::{Knots, Study, paper_row};
 use eigenring_tune::sweep::{Options, Range};
 
 fn run(valences: Vec<usize>, knots: Knots, progress: &dyn Progress) -> Result<Vec<Study>, Error> {
@@ -38,10 +37,10 @@ pub(super) fn large(progress: &dyn Progress) -> Result<Vec<(String, Vec<u8>)>, E
     Ok(files(&studies, "large", &names))
 }
 
-/// What the splines of the paper's valences lose with the knots of the tables, with those of the paper, and with
-/// knots and a fit that lose least; and the coefficients of the last.
+/// What the splines of the paper's valences lose with the knots of the tables, with those of the paper, and
+/// with knots and a fit that lose least; and the coefficients of the last.
 pub(super) fn sharp(progress: &dyn Progress) -> Result<Vec<(String, Vec<u8>)>, Error> {
-    let valences: Vec<usize> = PAPER_TABLE_1.iter().map(|row| row.valence).collect();
+    let valences: Vec<usize> = (3..=20).collect();
     let mut table = Table::new([
         "valence",
         "knots",
@@ -63,6 +62,9 @@ pub(super) fn sharp(progress: &dyn Progress) -> Result<Vec<(String, Vec<u8>)>, E
     for index in 0..valences.len() {
         for (name, studies) in &all {
             let study = &studies[index];
+            if *name == "paper" && paper_row(study.valence).is_none() {
+                continue;
+            }
             let (knots, accuracy) = (&study.knots.values, &study.accuracy);
             table.push(vec![
                 study.valence.into(),

@@ -253,7 +253,14 @@ impl Study {
                 admissible: &admissible,
                 end: recommended::end(&entry(values, &fit), range.end)?,
             };
-            let found = sharp.fit(values, kinks, &candidates).map_err(failed)?;
+            let free = |slot: &str, paper: fn(&PaperRow) -> f64| {
+                let own = candidates.iter().filter(|c| c.slot == slot && c.residual.is_some());
+                let mut lambdas: Vec<f64> = own.map(|c| c.lambda).collect();
+                lambdas.extend(paper_row(valence).map(paper));
+                lambdas
+            };
+            let [b, d] = [free("b", |row| row.lambda_b), free("d", |row| row.lambda_d)];
+            let found = sharp.fit(values, kinks, fit, [&b, &d]);
             (found.knots, found.kinks, found.fit)
         } else {
             (values, kinks, fit)

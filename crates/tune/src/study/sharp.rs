@@ -7,14 +7,15 @@
 //! * f2 is fitted to the best values beside the fitted f3, not beside the tuned one;
 //! * the weights of samples grow with what the spline loses there, round by round (the rule of Lawson 1961
 //!   for least maxima), and the best round is kept;
-//! * the triple knots b and d move to whichever candidates lose least, one after the other.
+//! * the triple knots b and d move to whichever lose least, of the kinks and of the paper's, one after the
+//!   other.
 //!
 //! Interpolation at lambda_C* and the bounds are those of the usual fit.
 
 use super::admissible::Admissible;
-use super::{KnotCandidate, TINY, fit_feasible, objective};
+use super::{TINY, fit_feasible, objective};
 use crate::objective::Objective;
-use crate::spline::{Band, FitError, StencilBounds, StencilFit, StencilSample};
+use crate::spline::{self, Band, FitError, StencilBounds, StencilFit, StencilSample};
 use crate::sweep::{BranchSample, Options, Range};
 use eigenring_scheme::lambda::{LAMBDA_R1, LambdaKnots};
 
@@ -110,32 +111,57 @@ impl Place<'_> {
 }
 
 impl Sharp<'_> {
-    /// The best splines with the given knots or with candidates in the place of b and d.
-    pub fn fit(&self, knots: LambdaKnots, kinks: [bool; 3], candidates: &[KnotCandidate]) -> Result<Found, FitError> {
+    /// The best splines with the knots of the usual fit, or with one of the given lambdas in the place of b
+    /// and d: at least as good as the usual fit.
+    pub fn fit(&self, knots: LambdaKnots, kinks: [bool; 3], fit: StencilFit, free: [&[f64]; 2]) -> Found {
         let places: Vec<Place<'_>> = self.samples.iter().map(|sample| self.place(sample)).collect();
         let costs: Vec<[f64; 2]> = places.iter().map(Place::costs).collect();
-        let mut best = self.rounds(knots, kinks, &places, &costs)?;
-        for slot in ["b", "d"] {
-            for candidate in candidates.iter().filter(|c| c.slot == slot && c.residual.is_some()) {
+        let losses = self.losses(&fit, &places);
+        let mut best = Found {
+            knots,
+            kinks,
+            fit,
+            loss: losses.into_iter().fold(0.0, f64::max),
+        };
+        let mut consider = |best: &mut Found, knots, kinks| {
+            // knots that leave a part undetermined are no choice
+            if let Ok(found) = self.rounds(knots, kinks, &places, &costs)
+                && found.loss < best.loss
+            {
+                *best = found;
+            }
+        };
+        consider(&mut best, knots, kinks);
+        for (slot, lambdas) in free.into_iter().enumerate() {
+            for &lambda in lambdas {
                 let (mut knots, mut kinks) = (best.knots, best.kinks);
                 let (knot, kink) = match slot {
-                    "b" => (&mut knots.b, &mut kinks[0]),
+                    0 => (&mut knots.b, &mut kinks[0]),
                     _ => (&mut knots.d, &mut kinks[2]),
                 };
-                if *knot == candidate.lambda {
-                    continue;
-                }
-                // a free knot may be a kink
-                (*knot, *kink) = (candidate.lambda, true);
-                // knots that leave a part undetermined are no choice
-                if let Ok(found) = self.rounds(knots, kinks, &places, &costs)
-                    && found.loss < best.loss
-                {
-                    best = found;
+                if *knot != lambda {
+                    // a free knot may be a kink
+                    (*knot, *kink) = (lambda, true);
+                    consider(&mut best, knots, kinks);
                 }
             }
         }
-        Ok(best)
+        best
+    }
+
+    /// What a fit loses at each sample, where it counts.
+    fn losses(&self, fit: &StencilFit, places: &[Place<'_>]) -> Vec<f64> {
+        let loss = |place: &Place<'_>| {
+            let lambda = place.sample.lambda;
+            let at = |spline: &spline::Fit| spline.spline.value(lambda).unwrap_or(f64::NAN);
+            let counts = (LAMBDA_R1..=self.end).contains(&lambda);
+            if counts {
+                place.loss(at(&fit.f2), at(&fit.f3)).max(0.0)
+            } else {
+                0.0
+            }
+        };
+        places.iter().map(loss).collect()
     }
 
     fn place<'b>(&self, sample: &'b BranchSample) -> Place<'b> {
@@ -169,12 +195,9 @@ impl Sharp<'_> {
                 }
             }
             let fit = fit_feasible(&knots, kinks, &samples, self.fixed, self.range, self.admissible)?;
-            let mut losses = Vec::with_capacity(places.len());
+            let losses = self.losses(&fit, places);
             for (place, sample) in places.iter().zip(&mut samples) {
-                let at = |spline: &crate::spline::Fit| spline.spline.value(place.sample.lambda).unwrap_or(f64::NAN);
-                let (f2, f3) = (at(&fit.f2), at(&fit.f3));
-                let counts = (LAMBDA_R1..=self.end).contains(&place.sample.lambda);
-                losses.push(if counts { place.loss(f2, f3).max(0.0) } else { 0.0 });
+                let f3 = fit.f3.spline.value(place.sample.lambda).unwrap_or(f64::NAN);
                 sample.f2 = place.best_f2(f3);
             }
             let loss = losses.iter().copied().fold(0.0, f64::max);
