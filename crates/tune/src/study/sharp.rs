@@ -123,7 +123,7 @@ impl Sharp<'_> {
             fit,
             loss: losses.into_iter().fold(0.0, f64::max),
         };
-        let mut consider = |best: &mut Found, knots, kinks| {
+        let consider = |best: &mut Found, knots, kinks| {
             // knots that leave a part undetermined are no choice
             if let Ok(found) = self.rounds(knots, kinks, &places, &costs)
                 && found.loss < best.loss
