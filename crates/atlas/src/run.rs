@@ -145,6 +145,8 @@ impl Parameters {
 pub fn check(parameters: &Parameters) -> Result<(), Error> {
     let (options, range) = parameters.options();
     for &valence in &parameters.valences {
+        // mu comes nearest to lambda at the end
+        Relaxation::new(valence)?.plane(range.end)?;
         // the margin and the constants of the objective are refused here
         Problem::new(valence, range.start, &options)?;
     }

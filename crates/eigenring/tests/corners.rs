@@ -84,7 +84,7 @@ fn corners_that_make_no_sense_are_refused() {
     let place = Place::new();
     for (line, says) in [
         (
-            "spectrum --scheme doo-sabin --fan 2",
+            "spectrum --scheme doo-sabin --dart -N 5",
             "doo-sabin has no rules for this corner",
         ),
         ("spectrum --scheme catmull-clark --fan 2 -N 5", "-N is 5"),

@@ -339,7 +339,7 @@ fn refusals() {
     }
     assert!(refused(&place, "plot stencils --range 0.95..0.96").contains("0.15..0.9"));
     assert!(refused(&place, "plot stencils --valences 30").contains("3 to 20"));
-    assert!(refused(&place, "plot samples --valences 30").contains("3 to 23"));
+    assert!(refused(&place, "plot samples --valences 500").contains("lambda"));
     assert!(refused(&place, "plot weighting --valences 5").contains("does not take --valences"));
     assert!(refused(&place, "plot weighting --range 0.2..0.3").contains("--range for"));
     assert!(refused(&place, "plot weighting --lambda 0.3").contains("--lambda for curvature-sign"));
