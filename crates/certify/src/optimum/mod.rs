@@ -16,9 +16,10 @@
 //! so long as the natural configuration folds at no point of the quadrature: E has no value otherwise. It is
 //! a statement on the sum that is minimised, not on the integral that the sum stands for.
 //!
-//! Values over a box are [`Centred`] forms in the corner radius and f3. Their overestimation falls with the
-//! square of the box, so that boxes around a minimum need not be much smaller than the square root of
-//! epsilon. Where the minimum lies on a bound, the bound is a side of the rectangle that is covered (see
+//! Values over a box are [`Centred`](crate::Centred) forms in the corner radius and f3. Their overestimation
+//! falls with the square of the box, so that boxes around a minimum need not be much smaller than the square
+//! root of epsilon. Where the minimum lies on a bound, the bound is a side of the rectangle that is covered
+//! (see
 //! `domain.rs`).
 //!
 //! ```
