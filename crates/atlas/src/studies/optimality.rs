@@ -32,10 +32,11 @@ pub struct Tuned {
 /// Relative tolerance, where none is asked for.
 pub const EPSILON: f64 = 1e-6;
 
-/// The most boxes of one of the [`Problem::PARTS`] parts: some hours in all at the worst.
+/// The most boxes of one of the [`Problem::PARTS`] parts, ten times what the largest valences that were
+/// decided need in all: a part that cannot be decided is given up after some minutes.
 const LIMITS: Limits = Limits {
     width: 1e-7,
-    boxes: 100_000,
+    boxes: 20_000,
 };
 
 /// Proves for each stencil that no admissible one is better by more than `epsilon` of its objective.

@@ -5,12 +5,17 @@
 //! 0`, of the last block's `g3 >= -m` and of `d2 >= 0`. The others are evaluated on a box; that one of them
 //! certainly fails there excludes the box.
 //!
-//! **The branch.** With `A, B, C, D` of [`Plane`], every admissible f3 is below C/D at N >= 5. For `C/D < f3
-//! < mu`, h is negative (`C/D < mu`, as `D - B = (1+c2)(1-sg) > 0`), which `e1 >= 0` forbids. From `f3 >= mu`
-//! on, `|f3 g3| <= m mu`, the determinant of every block, gives `g3 <= m`, so that the characteristic
-//! polynomial of the last block is at m `(m - f3)(m - g3) - h m (1 + c_K) <= 0`: one of its roots is m or
-//! above. It is m itself only if `g3 = m` and h = 0, that is at `f3 = mu`, where `g3 = lambda`, or at `f3 =
-//! lambda`, which is then the other root. At `f3 = C/D` there is no stencil.
+//! **The branch.** With `A, B, C, D` of [`Plane`], every admissible f3 is below C/D at N >= 5. At C/D there
+//! is no stencil, and for f3 between C/D and mu (`C/D < mu`, as `D - B = (1+c2)(1-sg) > 0`) h is negative,
+//! which `e1 >= 0` forbids. From mu on (up to lambda, by theta) h is not negative, and the determinant `p =
+//! f3 g3` of every block has `|p| <= m mu`, so that `g3 <= m mu/f3 <= m`.
+//!
+//! * At `f3 = mu` g3 is lambda, and `p = lambda mu` is above `m mu`.
+//! * Beyond, at N >= 6, the characteristic polynomial of the last block has at m the value
+//!   `(m - f3)(m - g3) - h m (1 + c_K)`, which is not positive, so that one of its roots is m or above. It is
+//!   m itself only if g3 is, and then the other one is `p/m = f3`, above m.
+//! * Beyond, at N = 5, the last block is block 2, which has the root mu, so that
+//!   `(mu - f3)(mu - g3) = h mu (1 + c_2)` is not negative. So g3 is mu or above, but `m mu/f3` is below mu.
 
 use super::objective::{edge_weight, planar};
 use crate::{Centred, Enclose, Interval};
