@@ -128,7 +128,15 @@ fn evaluation(criterion: &mut Criterion<ProcessorTime>) {
     for spec in ["catmull-clark", "tension:order=6,u0=0.5"] {
         let rules = rules(spec);
         let surface = Surface::new(&control, &rules).expect("it is a surface");
-        group.bench_function(format!("{spec}/a million samples"), |bench| {
+        group.bench_function(format!("{spec}/a million samples, taken as they come"), |bench| {
+            bench.iter(|| {
+                let taken = surface.at_each(black_box(&places), |_, found| {
+                    black_box(found);
+                });
+                taken.expect("places are on the surface");
+            });
+        });
+        group.bench_function(format!("{spec}/a million samples, kept"), |bench| {
             bench.iter(|| surface.at_all(black_box(&places)).expect("places are on the surface"));
         });
     }

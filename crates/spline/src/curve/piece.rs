@@ -108,16 +108,6 @@ impl Piece {
         self.evaluated(self.order, f)
     }
 
-    /// The same for an order that is known when compiling, for loops that run a million times.
-    ///
-    /// # Panics
-    /// If K is not the order.
-    #[inline]
-    pub fn of_order<const K: usize>(&self, f: f64) -> [[f64; K]; 3] {
-        assert_eq!(K, self.order, "the order of the piece");
-        self.evaluated(K, f)
-    }
-
     #[inline(always)]
     fn evaluated<const M: usize>(&self, k: usize, f: f64) -> [[f64; M]; 3] {
         let mut out = [[0.0; M]; 3];
@@ -132,38 +122,66 @@ impl Piece {
             }
             return out;
         }
-        let x = f - 0.5;
-        // monomials over factorials, with room for the indices -2 and -1
-        let mut powers = [0.0; MAX_ORDER + 2];
-        let mut power = 1.0;
-        for (to, inverse) in powers[2..].iter_mut().zip(&self.inverse_factorials) {
-            *to = power * inverse;
-            power *= x;
-        }
-        let step = self.square * x * x;
-        let (mut before, mut last) = (1.0, 1.0);
-        for [first, second] in self.factors.iter().rev() {
-            before = 1.0 + before * step * first;
-            last = 1.0 + last * step * second;
-        }
-        let (before, last) = (powers[k] * before, powers[k + 1] * last);
-        // phi_(j-2) = x^(j-2) / (j-2)! -+ w^2 phi_j
-        let lower = [powers[k - 2] + self.square * before, powers[k - 1] + self.square * last];
-        let ends = [[before, last], [lower[1], before], [lower[0], lower[1]]];
-        for (order, (out, ends)) in out.iter_mut().zip(ends).enumerate() {
+        for (out, terms) in out.iter_mut().zip(self.terms::<M>(k, f)) {
             let out = &mut out[..k];
-            for (j, row) in self.derivatives.chunks_exact(k).enumerate() {
-                let factor = match j {
-                    _ if j == k - 1 => ends[1],
-                    _ if j == k - 2 => ends[0],
-                    _ => powers[j + 2 - order],
-                };
+            for (row, factor) in self.derivatives.chunks_exact(k).zip(terms) {
                 if factor != 0.0 {
                     out.iter_mut().zip(row).for_each(|(sum, d)| *sum += factor * d);
                 }
             }
         }
         out
+    }
+
+    /// The derivatives 0 to k-1 of the k functions at the middle, row after row of k numbers; `None` where
+    /// the functions are evaluated by quadrature. A spline's own derivatives there, sums of these times its
+    /// control points, are its coefficients by the functions of [`Piece::span`].
+    pub fn at_middle(&self) -> Option<&[f64]> {
+        (!self.derivatives.is_empty()).then_some(&self.derivatives)
+    }
+
+    /// The functions `1, x, .., x^(k-3) / (k-3)!, phi_(k-2), phi_(k-1)` at a fraction of the way, with
+    /// x = f - 1/2, and their first and second derivatives. K is the order, for loops of known length, or
+    /// more, and what follows is 0. The j-th function has no d-th derivative for j < d and j < k-2.
+    ///
+    /// # Panics
+    /// If K is less than the order.
+    #[inline]
+    pub fn span<const K: usize>(&self, f: f64) -> [[f64; K]; 3] {
+        if K == self.order {
+            return self.terms(K, f);
+        }
+        assert!(K > self.order, "more functions than asked for");
+        self.terms(self.order, f)
+    }
+
+    #[inline(always)]
+    fn terms<const M: usize>(&self, k: usize, f: f64) -> [[f64; M]; 3] {
+        let x = f - 0.5;
+        let [mut values, mut first, mut second] = [[0.0; M]; 3];
+        let mut power = 1.0;
+        for (to, inverse) in values[..k].iter_mut().zip(&self.inverse_factorials) {
+            *to = power * inverse;
+            power *= x;
+        }
+        let step = self.square * x * x;
+        let (mut before, mut last) = (1.0, 1.0);
+        for [one, other] in self.factors.iter().rev() {
+            before = 1.0 + before * (step * one);
+            last = 1.0 + last * (step * other);
+        }
+        let (before, last) = (values[k - 2] * before, values[k - 1] * last);
+        // phi_(j-2) = x^(j-2) / (j-2)! -+ w^2 phi_j
+        let lowest = if k > 3 { values[k - 4] } else { 0.0 };
+        let lower = [lowest + self.square * before, values[k - 3] + self.square * last];
+        first[1..k - 2].copy_from_slice(&values[..k - 3]);
+        if k > 4 {
+            second[2..k - 2].copy_from_slice(&values[..k - 4]);
+        }
+        values[k - 2..k].copy_from_slice(&[before, last]);
+        first[k - 2..k].copy_from_slice(&[lower[1], before]);
+        second[k - 2..k].copy_from_slice(&lower);
+        [values, first, second]
     }
 }
 

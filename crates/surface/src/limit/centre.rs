@@ -10,9 +10,9 @@ use super::local::Local;
 use super::net::{Control, control};
 use super::patch::Patch;
 use super::rotation::Rotation;
-use crate::Error;
 use crate::refine::{Row, Step, add};
 use crate::rules::Rules;
+use crate::{Error, Topology};
 use eigenring_scheme::{Complex, Table};
 use eigenring_spectral::{Block, Matrix};
 use std::collections::HashMap;
@@ -154,29 +154,54 @@ pub(crate) fn missing() -> Error {
 }
 
 impl Quarter {
-    fn new(local: &Local, refined: &Step, corner: u32, level: usize, kernel: &Kernel) -> Result<Self, Error> {
+    fn new(
+        local: &Local,
+        (refined, topology): (&Step, &Topology),
+        corner: u32,
+        level: usize,
+        kernel: &Kernel,
+    ) -> Result<Self, Error> {
+        let child = local.child(refined, topology, corner, kernel.reach());
         Ok(Quarter {
-            local: local.child(refined, corner, kernel.reach()).ok_or_else(missing)?,
+            local: child.ok_or_else(missing)?,
             level,
             split: OnceLock::new(),
             control: OnceLock::new(),
         })
     }
 
-    /// The piece at a place of the quarter, whose control points are picked from those of the refined part:
-    /// with the place in the piece, the quarters that lead there, and how much finer its parameters are.
-    fn patch(&self, context: Context<'_>, refined: &[[f64; 3]], at: &mut Path, depth: usize) -> Result<Patch, Error> {
+    /// Makes the piece at a place of the quarter, the last of `made`, with its name; control points are
+    /// picked from those of the refined part. Pieces beside it that have their points then come before.
+    fn patches(
+        &self,
+        context: Context<'_>,
+        refined: &[[f64; 3]],
+        at: &mut Path,
+        depth: usize,
+        made: &mut Vec<(u64, Patch)>,
+    ) -> Result<(), Error> {
         let points: Vec<[f64; 3]> = self.local.unknowns().iter().map(|&id| refined[id as usize]).collect();
         match self.split(context, depth)? {
             None => {
                 let control = self.control.get_or_init(|| control(&self.local, context.kernel));
                 let control = control.as_ref().ok_or_else(missing)?;
-                Patch::of(control, &points, context.kernel, self.level)
+                made.push((at.name, Patch::new(control, &points, context.kernel, self.level)?));
+                Ok(())
             }
             Some(split) => {
+                let name = 4 * at.name;
                 let quarter = at.descend();
                 let refined = applied(&split.tables, &points)?;
-                split.quarters[quarter].patch(context, &refined, at, depth - 1)
+                for (number, beside) in split.quarters.iter().enumerate().filter(|(n, _)| *n != quarter) {
+                    if depth > 1 && beside.split(context, depth - 1)?.is_none() {
+                        let mut at = Path {
+                            name: name + number as u64,
+                            ..*at
+                        };
+                        beside.patches(context, &refined, &mut at, depth - 1, made)?;
+                    }
+                }
+                split.quarters[quarter].patches(context, &refined, at, depth - 1, made)
             }
         }
     }
@@ -207,7 +232,9 @@ impl Quarter {
             });
         } else {
             let refined = self.local.refined(rules, kernel, self.level)?;
-            let quarter = |corner| Quarter::new(&self.local, &refined, corner, self.level + 1, kernel);
+            let topology = Topology::unchecked(&refined.mesh);
+            let fine = (&refined, &topology);
+            let quarter = |corner| Quarter::new(&self.local, fine, corner, self.level + 1, kernel);
             let quarters = [quarter(0)?, quarter(1)?, quarter(2)?, quarter(3)?];
             let tables = refined.tables;
             Some(Box::new(Split { tables, quarters }))
@@ -228,6 +255,16 @@ pub(crate) struct Path {
 }
 
 impl Path {
+    /// In a quarter of a face.
+    fn new(quarter: usize, s: f64, t: f64) -> Self {
+        Path {
+            s,
+            t,
+            name: quarter as u64,
+            finer: 2.0,
+        }
+    }
+
     fn descend(&mut self) -> usize {
         let (quarter, s, t) = quartered(self.s, self.t);
         *self = Path {
@@ -244,7 +281,7 @@ impl Path {
 /// piece that reads 15 rings, the most, is free of the centre after 4; one more for rules that reach farther.
 const DEEPEST: usize = 5;
 
-fn applied(tables: &[Table<f64>], points: &[[f64; 3]]) -> Result<Vec<[f64; 3]>, Error> {
+pub(super) fn applied(tables: &[Table<f64>], points: &[[f64; 3]]) -> Result<Vec<[f64; 3]>, Error> {
     let mut points = points.to_vec();
     for table in tables {
         points = table.apply(&points)?;
@@ -266,14 +303,14 @@ impl Stage {
     /// that after which all are alike.
     pub fn new(
         local: &Local,
-        refined: Step,
+        (refined, topology): (Step, &Topology),
         child: &Local,
         kernel: &Kernel,
         level: usize,
         next: Option<(&Stage, &Result<Pair, Undefined>)>,
     ) -> Result<(Self, Option<Result<Pair, Undefined>>), Error> {
         let matrix: Vec<Row> = child.unknowns().iter().map(|&id| composed(&refined, id)).collect();
-        let quarter = |corner| Quarter::new(local, &refined, corner, level + 1, kernel);
+        let quarter = |corner| Quarter::new(local, (&refined, topology), corner, level + 1, kernel);
         let quarters = [quarter(1)?, quarter(2)?, quarter(3)?];
         let rotation = match next {
             None => Rotation::find(&matrix, local, kernel.reach()),
@@ -352,12 +389,7 @@ impl Stage {
 
     /// Finds the piece in which a place of a quarter (1 to 3) lies.
     pub fn locate(&self, context: Context<'_>, quarter: usize, s: f64, t: f64) -> Result<Path, Error> {
-        let mut path = Path {
-            s,
-            t,
-            name: quarter as u64,
-            finer: 2.0,
-        };
+        let mut path = Path::new(quarter, s, t);
         self.quarters[quarter - 1].locate(context, &mut path, DEEPEST)?;
         Ok(path)
     }
@@ -367,22 +399,19 @@ impl Stage {
         applied(&self.tables, points)
     }
 
-    /// That piece, for the points after this level.
-    pub fn patch(
+    /// That piece for the points after this level, with its name, and before it others from the same points.
+    pub fn patches(
         &self,
         context: Context<'_>,
         refined: &[[f64; 3]],
         quarter: usize,
         s: f64,
         t: f64,
-    ) -> Result<Patch, Error> {
-        let mut path = Path {
-            s,
-            t,
-            name: 0,
-            finer: 1.0,
-        };
-        self.quarters[quarter - 1].patch(context, refined, &mut path, DEEPEST)
+    ) -> Result<Vec<(u64, Patch)>, Error> {
+        let mut made = Vec::new();
+        let mut path = Path::new(quarter, s, t);
+        self.quarters[quarter - 1].patches(context, refined, &mut path, DEEPEST, &mut made)?;
+        Ok(made)
     }
 }
 

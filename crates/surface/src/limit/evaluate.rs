@@ -1,11 +1,11 @@
 //! Evaluation of one face: its refined parts, kept while points are asked for.
 
 pub use super::centre::Undefined;
-use super::centre::{Centre, Context, Stage, missing, quartered};
+use super::centre::{Centre, Context, applied, quartered};
 use super::ladder::Ladder;
-use super::local::{Local, Source};
 use super::numbers::ByNumber;
 use super::patch::{Jet3, Lanes, OnCrease, Patch, vector};
+use super::structure::{Part, Structure, What};
 use super::{Place, Surface};
 use crate::Error;
 use nalgebra::{Point3, Vector3};
@@ -140,12 +140,40 @@ fn length(x: f64, y: f64) -> f64 {
     }
 }
 
-/// A part of the face.
+/// A part of the face with its points.
 enum Node {
     Regular(Patch),
     /// A centre at a corner.
     Centre(u32, Arc<Centre>, Box<Ladder>),
-    Inner(Box<Local>, Box<crate::refine::Step>, [Option<Box<Node>>; 4]),
+    /// Quarters, and the points from which they pick theirs.
+    Inner(Arc<Structure>, Vec<[f64; 3]>, [Option<Box<Node>>; 4]),
+}
+
+impl Node {
+    fn new(surface: &Surface<'_>, part: &Part, point: impl Fn(u32) -> [f64; 3]) -> Result<Self, Error> {
+        let structure = &part.structure;
+        let points: Vec<[f64; 3]> = part.ids.iter().map(|&id| point(id)).collect();
+        Ok(match &structure.what {
+            What::Regular(control) => Node::Regular(Patch::new(control, &points, &surface.kernel, structure.level)?),
+            What::Centre { corner, centre, ids } => {
+                let points: Vec<Point3<f64>> = ids.iter().map(|&id| points[id as usize].into()).collect();
+                Node::Centre(*corner, Arc::clone(centre), Box::new(Ladder::new(centre, &points)))
+            }
+            What::Inner(inner) => Node::Inner(
+                Arc::clone(structure),
+                applied(&inner.refined.tables, &points)?,
+                [None, None, None, None],
+            ),
+        })
+    }
+
+    /// The part of the base counted from a half-edge.
+    #[cold]
+    fn root(surface: &Surface<'_>, half: u32) -> Result<Self, Error> {
+        let part = Part::root(surface, half)?;
+        let points = surface.net.as_ref().map_or(surface.base.points(), |net| &net.points);
+        Node::new(surface, &part, |id| points[id as usize].into())
+    }
 }
 
 /// Evaluates places of one face.
@@ -158,9 +186,6 @@ pub struct Evaluator<'s, 'r> {
     /// By the half-edge of the base from whose corner the part is counted, from the first one of the face.
     roots: ByNumber<Node>,
 }
-
-/// No part of a face needs as many levels to be isolated: sharpness below 10 ends after ten.
-const DEEPEST: usize = 48;
 
 impl<'s, 'r> Evaluator<'s, 'r> {
     pub(super) fn new(surface: &'s Surface<'r>, face: u32) -> Self {
@@ -193,9 +218,8 @@ impl<'s, 'r> Evaluator<'s, 'r> {
         let surface = self.surface;
         let mut at = match self.roots.entry(u64::from(half)) {
             Entry::Occupied(entry) => entry.into_mut(),
-            Entry::Vacant(entry) => entry.insert(root(surface, half)?),
+            Entry::Vacant(entry) => entry.insert(Node::root(surface, half)?),
         };
-        let mut level = surface.lift;
         loop {
             match at {
                 Node::Regular(patch) => {
@@ -205,16 +229,16 @@ impl<'s, 'r> Evaluator<'s, 'r> {
                 Node::Centre(corner, centre, ladder) => {
                     return beside(surface.context(), *corner, centre, ladder, [s, t, scale], sample);
                 }
-                Node::Inner(local, refined, children) => {
+                Node::Inner(structure, points, quarters) => {
                     let (quarter, fine_s, fine_t) = quartered(s, t);
                     (s, t) = (fine_s, fine_t);
                     scale *= 2.0;
-                    level += 1;
-                    at = match &mut children[quarter] {
-                        Some(child) => child,
+                    at = match &mut quarters[quarter] {
+                        Some(node) => node,
                         empty => {
-                            let part = local.child(refined, quarter as u32, surface.kernel.reach());
-                            empty.insert(Box::new(node(surface, part.ok_or_else(missing)?, level)?))
+                            let part = structure.quarter(surface, quarter)?;
+                            let node = Node::new(surface, part, |id| points[id as usize])?;
+                            empty.insert(Box::new(node))
                         }
                     };
                 }
@@ -270,106 +294,6 @@ impl<'s, 'r> Evaluator<'s, 'r> {
         }
         Ok((half, s, t, scale))
     }
-}
-
-/// The part of the base counted from a half-edge.
-#[cold]
-fn root(surface: &Surface<'_>, half: u32) -> Result<Node, Error> {
-    let source = Source {
-        mesh: &surface.base,
-        topology: &surface.topology,
-        ends: surface.ends,
-        soft: surface.soft,
-        net: surface.net.as_ref(),
-        full: surface.kernel.full_steps(),
-    };
-    let own = |id: u32| surface.rules.vertices().any(|v| v == id).then_some(id);
-    let none = surface.rules.vertices().next().is_none();
-    let rings = surface.kernel.reach();
-    let local = source.part(half, rings, |id| if none { None } else { own(id) });
-    node(surface, local, surface.lift)
-}
-
-/// What a part of a level is.
-fn node(surface: &Surface<'_>, local: Local, level: usize) -> Result<Node, Error> {
-    let (rules, kernel) = (surface.local_rules(), &surface.kernel);
-    if !local.is_soft() {
-        let irregular = local.irregular(rules, kernel.rings);
-        let near = kernel.beyond && local.is_near_special(rules);
-        if irregular.is_empty() && !near {
-            let points: Vec<[f64; 3]> = local.points().iter().map(|p| [p.x, p.y, p.z]).collect();
-            return Ok(Node::Regular(Patch::new(&local, &points, kernel, level)?));
-        }
-        if let &[half] = irregular.as_slice() {
-            let vertex = local.topology.origin(half);
-            let corner = (0..4).find(|&corner| local.topology.origin(corner) == vertex);
-            if let Some(corner) = corner {
-                let turned = local.turned(corner, kernel.reach());
-                if let Some(centre) = centre(surface, &turned, level)? {
-                    let ladder = Box::new(Ladder::new(&centre, turned.points()));
-                    return Ok(Node::Centre(corner, centre, ladder));
-                }
-            }
-        }
-    }
-    if level > surface.lift + DEEPEST {
-        return Err(missing());
-    }
-    let refined = local.refined(rules, kernel, level)?;
-    Ok(Node::Inner(
-        Box::new(local),
-        Box::new(refined),
-        [None, None, None, None],
-    ))
-}
-
-/// The centre at the first corner of a part, if refinement reproduces the part.
-fn centre(surface: &Surface<'_>, local: &Local, level: usize) -> Result<Option<Arc<Centre>>, Error> {
-    let (rules, kernel) = (surface.local_rules(), &surface.kernel);
-    let level = level.min(kernel.stationary);
-    let key = local.key();
-    let known = surface.known.lock().ok();
-    if let Some(centre) = known.and_then(|known| known.centres.get(&(key.clone(), level)).cloned()) {
-        return Ok(Some(centre));
-    }
-    let mut stages: Vec<Arc<Stage>> = Vec::new();
-    let mut pair = None;
-    // from the level that all others equal back to this one
-    for at in (level..=kernel.stationary).rev() {
-        let known = surface.known.lock().ok();
-        let found = known.and_then(|known| {
-            pair = pair.take().or_else(|| known.pairs.get(&key).cloned());
-            known.stages.get(&(key.clone(), at)).cloned()
-        });
-        let stage = match (found, &pair) {
-            (Some(stage), Some(_)) => stage,
-            _ => {
-                let refined = local.refined(rules, kernel, at)?;
-                let child = local.child(&refined, 0, kernel.reach()).ok_or_else(missing)?;
-                if child.key() != key {
-                    return Ok(None);
-                }
-                let next = stages.last().map(Arc::as_ref).zip(pair.as_deref());
-                let (stage, own) = Stage::new(local, refined, &child, kernel, at, next)?;
-                let stage = Arc::new(stage);
-                let own = own.map(Arc::new);
-                if let Ok(mut known) = surface.known.lock() {
-                    known.stages.insert((key.clone(), at), Arc::clone(&stage));
-                    known.pairs.extend(own.clone().map(|own| (key.clone(), own)));
-                }
-                pair = pair.or(own);
-                stage
-            }
-        };
-        stages.push(stage);
-    }
-    stages.reverse();
-    let Some(pair) = pair else { return Ok(None) };
-    let centre = Arc::new(Centre::new(stages, &pair));
-    if let Ok(mut known) = surface.known.lock() {
-        known.centres.insert((key, level), Arc::clone(&centre));
-    }
-    Ok(Some(centre))
 }
 
 #[inline]

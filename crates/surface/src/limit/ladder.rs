@@ -1,6 +1,6 @@
 //! The control points of a face beside a centre, split into limit, tangents and rest, level by level.
 
-use super::centre::{Centre, Context, Undefined};
+use super::centre::{Centre, Context, Undefined, missing};
 use super::numbers::ByNumber;
 use super::patch::{Jet3, OnCrease, Patch};
 use crate::Error;
@@ -174,11 +174,16 @@ impl Ladder {
             Some((known, refined)) if known == m => refined,
             _ => stage.refined(&self.points(centre, m))?,
         };
-        let patch = stage.patch(context, &refined, quarter, s, t)?;
+        let mut made = stage.patches(context, &refined, quarter, s, t)?;
         self.refined = Some((m, refined));
+        let Some((_, patch)) = made.last() else {
+            return Err(missing());
+        };
         let (jet, on_crease) = (patch.jet(path.s, path.t), patch.on_crease(path.s, path.t));
         if m <= KEPT {
-            self.patches.insert(key, patch);
+            let level = (m as u64) << 32;
+            self.patches
+                .extend(made.drain(..).map(|(name, patch)| (level | name, patch)));
         }
         Ok((jet, path.finer, on_crease))
     }

@@ -11,7 +11,6 @@ use crate::features::{INFINITE, edge};
 use crate::refine::{Step, step};
 use crate::rules::Rules;
 use crate::{Error, Mesh, Topology};
-use nalgebra::Point3;
 use std::collections::{HashMap, HashSet};
 
 /// What the structure around a face is: two faces with the same key have the same rules.
@@ -298,24 +297,14 @@ impl Local {
         }
     }
 
-    /// The control points.
-    pub fn points(&self) -> &[Point3<f64>] {
-        self.net.as_ref().map_or(self.mesh.points(), |(net, _)| &net.points)
-    }
-
     /// The numbers that the control points have in the refined part before.
     pub fn unknowns(&self) -> &[u32] {
         self.net.as_ref().map_or(&self.ids, |(_, ids)| ids)
     }
 
-    /// The same part counted from another corner of its face.
+    /// The same part counted from another corner of its face, with the numbers of its control points here.
     pub fn turned(&self, corner: u32, rings: usize) -> Local {
-        let mut turned = self.source().part(corner, rings, |id| self.named.get(&id).copied());
-        turned.ids = turned.ids.iter().map(|&id| self.ids[id as usize]).collect();
-        if let (Some((_, ids)), Some((_, before))) = (&mut turned.net, &self.net) {
-            ids.iter_mut().for_each(|id| *id = before[*id as usize]);
-        }
-        turned
+        self.source().part(corner, rings, |id| self.named.get(&id).copied())
     }
 
     /// The part, refined once, as the given level.
@@ -332,12 +321,11 @@ impl Local {
     }
 
     /// The quarter of the face at one of its corners, counted so that parameters run as on the face.
-    pub fn child(&self, refined: &Step, corner: u32, rings: usize) -> Option<Local> {
+    pub fn child(&self, refined: &Step, topology: &Topology, corner: u32, rings: usize) -> Option<Local> {
         let face = refined.halves.iter().position(|&half| half == corner)? as u32;
-        let topology = Topology::unchecked(&refined.mesh);
         let source = Source {
             mesh: &refined.mesh,
-            topology: &topology,
+            topology,
             ends: Ends::Open,
             soft: refined.mesh.features.largest_finite_sharpness() > 0.0,
             net: refined.net.as_ref(),

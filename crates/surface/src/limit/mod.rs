@@ -21,6 +21,7 @@ mod numbers;
 mod partial;
 mod patch;
 mod rotation;
+mod structure;
 mod vertices;
 
 pub(crate) use dual::DualNet;
@@ -34,11 +35,11 @@ use crate::refine::step;
 use crate::refiner::{Refiner, RulesOn};
 use crate::rules::Rules;
 use crate::{Error, Mesh, Topology};
-use centre::{Centre, Context, Pair, Stage};
+use centre::Context;
 use kernel::Kernel;
 use nalgebra::Point3;
-use std::collections::HashMap;
-use std::sync::{Arc, Mutex};
+use std::sync::Mutex;
+use structure::Known;
 
 /// A place on a surface: a face of the control mesh and parameters.
 ///
@@ -78,14 +79,6 @@ pub struct Surface<'a> {
     /// How many levels the base is finer than the control mesh.
     lift: usize,
     known: Mutex<Known>,
-}
-
-/// What is known of irregular centres, by the structure around them and the level.
-#[derive(Debug, Default)]
-struct Known {
-    centres: HashMap<(local::Key, usize), Arc<Centre>>,
-    stages: HashMap<(local::Key, usize), Arc<Stage>>,
-    pairs: HashMap<local::Key, Arc<Result<Pair, Undefined>>>,
 }
 
 impl<'a> Surface<'a> {
@@ -183,51 +176,45 @@ impl<'a> Surface<'a> {
         self.evaluator(place.face)?.at(place)
     }
 
-    /// The points at places of any order. Those of one face are evaluated together.
+    /// The points at places of any order.
     ///
     /// # Errors
-    /// As [`Surface::at`], for the first place that is refused, face by face.
+    /// As [`Surface::at_each`].
     pub fn at_all(&self, places: &[Place]) -> Result<Vec<Sample>, Error> {
-        // places by faces, as grids are, are written once and in turn
-        if places.is_sorted_by_key(|place| place.face) {
-            let mut samples = Vec::with_capacity(places.len());
-            for group in places.chunk_by(|a, b| a.face == b.face) {
-                let mut evaluator = self.evaluator(group[0].face)?;
-                for &place in group {
-                    samples.push(evaluator.at(place)?);
-                }
+        let mut samples = vec![Sample::ORIGIN; places.len()];
+        self.at_each(places, |numbers, found| {
+            for (&number, sample) in numbers.iter().zip(found) {
+                samples[number as usize] = *sample;
             }
-            return Ok(samples);
-        }
+        })?;
+        Ok(samples)
+    }
+
+    /// Hands the points at places of any order to `take`, some hundred at a time and face by face, with the
+    /// numbers of the places: a million samples are never all in memory.
+    ///
+    /// # Errors
+    /// As [`Surface::at`], for the first place that is refused, face by face; points before it have been
+    /// handed over.
+    pub fn at_each(&self, places: &[Place], mut take: impl FnMut(&[u32], &[Sample])) -> Result<(), Error> {
         let faces = self.control.face_count();
         if let Some(place) = places.iter().find(|place| place.face as usize >= faces) {
             return Err(self.no_face(place.face));
         }
-        // windows of places stay in the cache while their faces take turns; not where that is too many turns
-        let window = if FEW * faces <= WINDOW { WINDOW } else { places.len() };
-        let mut samples = Vec::with_capacity(places.len());
-        let mut evaluators: Vec<Option<Evaluator<'_, 'a>>> = (0..faces).map(|_| None).collect();
-        let (mut ends, mut order) = (vec![0; faces + 1], Vec::new());
-        for places in places.chunks(window) {
-            let begin = samples.len();
-            samples.resize(begin + places.len(), Sample::ORIGIN);
-            let samples = &mut samples[begin..];
-            by_face(places, &mut ends, &mut order);
-            for (face, kept) in evaluators.iter_mut().enumerate() {
-                let group = &order[ends[face] as usize..ends[face + 1] as usize];
-                if group.is_empty() {
-                    continue;
+        let mut samples = vec![Sample::ORIGIN; AT_ONCE.min(places.len())];
+        let mut numbers = Vec::with_capacity(samples.len());
+        for group in by_face(places, faces).chunk_by(|(_, a), (_, b)| a.face == b.face) {
+            let mut evaluator = Evaluator::new(self, group[0].1.face);
+            for group in group.chunks(AT_ONCE) {
+                numbers.clear();
+                for ((number, place), sample) in group.iter().zip(&mut samples) {
+                    evaluator.fill(*place, sample)?;
+                    numbers.push(*number);
                 }
-                let evaluator = kept.get_or_insert_with(|| Evaluator::new(self, face as u32));
-                for &(index, place) in group {
-                    evaluator.fill(place, &mut samples[index as usize])?;
-                }
-                if window > WINDOW {
-                    *kept = None;
-                }
+                take(&numbers, &samples[..group.len()]);
             }
         }
-        Ok(samples)
+        Ok(())
     }
 
     /// Whether a place is there.
@@ -298,30 +285,24 @@ impl<'a> Surface<'a> {
     }
 }
 
-/// So many places, 10 MB of samples, are evaluated face by face before the next.
-const WINDOW: usize = 32768;
+/// So many samples, 150 kB, stay in the processor's cache until they are taken.
+const AT_ONCE: usize = 512;
 
-/// Fewer places of a face in a window are not worth a turn.
-const FEW: usize = 8;
-
-/// Sorts places with their numbers by their faces, by counting: those of a face are
-/// `order[ends[face]..ends[face + 1]]`.
-fn by_face(places: &[Place], ends: &mut [u32], order: &mut Vec<(u32, Place)>) {
-    ends.fill(0);
-    places.iter().for_each(|place| ends[place.face as usize] += 1);
-    let mut sum = 0;
-    for end in ends.iter_mut() {
-        sum += *end;
-        *end = sum;
+/// Places with their numbers in the order of their faces, by counting.
+fn by_face(places: &[Place], faces: usize) -> Vec<(u32, Place)> {
+    let mut order: Vec<(u32, Place)> = (0..).zip(places.iter().copied()).collect();
+    if places.is_sorted_by_key(|place| place.face) {
+        return order;
     }
-    order.clear();
-    order.extend((0..).zip(places.iter().copied()));
-    // backwards, so that the places of a face keep their order and ends become beginnings
-    for (index, &place) in (0..places.len() as u32).zip(places).rev() {
-        let at = &mut ends[place.face as usize];
-        *at -= 1;
-        order[*at as usize] = (index, place);
+    let mut next = vec![0_u32; faces + 1];
+    places.iter().for_each(|place| next[place.face as usize + 1] += 1);
+    (0..faces).for_each(|face| next[face + 1] += next[face]);
+    for (number, &place) in (0..).zip(places) {
+        let at = &mut next[place.face as usize];
+        order[*at as usize] = (number, place);
+        *at += 1;
     }
+    order
 }
 
 /// The middles of n by n cells of each face, and of each quad around a corner of a face that is none.

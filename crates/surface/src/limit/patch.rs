@@ -1,31 +1,42 @@
 //! Pieces of regular surfaces: control points, and their values.
 
 use super::kernel::Kernel;
-use super::net::{Control, control};
+use super::net::Control;
 use super::partial::Across;
 use crate::Error;
-use crate::limit::centre::missing;
-use crate::limit::local::Local;
-use eigenring_spline::curve::Piece;
+use eigenring_spline::curve::{MAX_ORDER, Piece};
 use nalgebra::Vector3;
 use std::sync::Arc;
 
-/// Values and derivatives of the four basis functions of uniform cubic splines at `t`. Written out, since a
-/// patch is evaluated a million times a second and must not allocate.
-#[inline]
-pub(crate) fn basis(t: f64) -> [[f64; 4]; 3] {
-    let u = 1.0 - t;
-    let (t2, u2) = (t * t, u * u);
-    let sixth = 1.0 / 6.0;
+/// Derivatives 0 to 3 at the middle of the four basis functions of uniform cubic splines.
+const CUBIC: [f64; 16] = [
+    1.0 / 48.0,
+    23.0 / 48.0,
+    23.0 / 48.0,
+    1.0 / 48.0,
+    -0.125,
+    -0.625,
+    0.625,
+    0.125,
+    0.5,
+    -0.5,
+    -0.5,
+    0.5,
+    -1.0,
+    3.0,
+    -3.0,
+    1.0,
+];
+
+/// Monomials over factorials in the distance from the middle, with first and second derivatives.
+#[inline(always)]
+fn monomials(f: f64) -> [[f64; 4]; 3] {
+    let x = f - 0.5;
+    let half = 0.5 * x * x;
     [
-        [
-            u2 * u * sixth,
-            (3.0 * t2 * t - 6.0 * t2 + 4.0) * sixth,
-            (3.0 * u2 * u - 6.0 * u2 + 4.0) * sixth,
-            t2 * t * sixth,
-        ],
-        [-0.5 * u2, 1.5 * t2 - 2.0 * t, 2.0 * u - 1.5 * u2, 0.5 * t2],
-        [u, 3.0 * t - 2.0, 3.0 * u - 2.0, t],
+        [1.0, x, half, half * x * (1.0 / 3.0)],
+        [0.0, 1.0, x, half],
+        [0.0, 0.0, 1.0, x],
     ]
 }
 
@@ -35,12 +46,15 @@ pub(crate) type Lanes = [f64; 4];
 /// Value, first derivatives by s and t, second by ss, st, tt.
 pub(crate) type Jet3 = [Lanes; 6];
 
-/// A piece of the surface.
+/// A piece of the surface. Pieces are evaluated by their derivatives at the middle: of the functions
+/// `x^j / j!` a derivative is the function before, which takes half the products that B-splines take.
 #[derive(Debug)]
 pub(crate) enum Patch {
-    /// Of bicubic B-splines.
+    /// Derivatives of a bicubic piece at its middle.
     Cubic(Box<[Lanes; 16]>),
-    /// Of another order or tension.
+    /// Likewise of another order or tension.
+    Expanded(Arc<Piece>, Vec<Lanes>),
+    /// Control points where the functions themselves are found by quadrature.
     Tensor(Arc<Piece>, Vec<Lanes>),
     /// Beside creases that act in some smoothing steps only: the functions along s and t.
     Partial([Arc<Across>; 2], Vec<Lanes>),
@@ -56,14 +70,8 @@ pub(crate) struct OnCrease {
 }
 
 impl Patch {
-    /// The piece of the face of a part, whose control points are given, as one of the given level.
-    pub fn new(local: &Local, points: &[[f64; 3]], kernel: &Kernel, level: usize) -> Result<Self, Error> {
-        let control = control(local, kernel).ok_or_else(missing)?;
-        Patch::of(&control, points, kernel, level)
-    }
-
-    /// The same with the rows of its control points known.
-    pub fn of(control: &Control, points: &[[f64; 3]], kernel: &Kernel, level: usize) -> Result<Self, Error> {
+    /// The piece of a level, from the rows of its control points.
+    pub fn new(control: &Control, points: &[[f64; 3]], kernel: &Kernel, level: usize) -> Result<Self, Error> {
         let Control { rows, lines } = control;
         let net = rows.iter().map(|row| {
             let mut sum = [0.0; 4];
@@ -80,26 +88,34 @@ impl Patch {
         if kernel.is_cubic(level) {
             let mut control = Box::new([[0.0; 4]; 16]);
             control.iter_mut().zip(net).for_each(|(at, point)| *at = point);
+            expand(4, &CUBIC, &mut control[..]);
             return Ok(Patch::Cubic(control));
         }
-        Ok(Patch::Tensor(kernel.piece(level)?, net.collect()))
+        let piece = kernel.piece(level)?;
+        let mut control: Vec<Lanes> = net.collect();
+        match piece.at_middle() {
+            Some(derivatives) => expand(kernel.order, derivatives, &mut control),
+            None => return Ok(Patch::Tensor(piece, control)),
+        }
+        Ok(Patch::Expanded(piece, control))
     }
 
     /// The jet at a place of the unit square.
     #[inline]
     pub fn jet(&self, s: f64, t: f64) -> Jet3 {
         match self {
-            Patch::Cubic(control) => tensor(4, &control[..], &basis(s), &basis(t)),
+            Patch::Cubic(control) => expanded(4, &control[..], &monomials(s), &monomials(t)),
             // usual orders with loops of known length
-            Patch::Tensor(piece, control) => match piece.order() {
+            Patch::Expanded(piece, control) => match piece.order() {
                 3 => of_order::<3>(piece, control, s, t),
                 4 => of_order::<4>(piece, control, s, t),
                 5 => of_order::<5>(piece, control, s, t),
                 6 => of_order::<6>(piece, control, s, t),
                 7 => of_order::<7>(piece, control, s, t),
                 8 => of_order::<8>(piece, control, s, t),
-                order => tensor(order, control, &piece.at(s), &piece.at(t)),
+                order => expanded(order, control, &piece.span::<MAX_ORDER>(s), &piece.span(t)),
             },
+            Patch::Tensor(piece, control) => tensor(piece.order(), control, &piece.at(s), &piece.at(t)),
             Patch::Partial([along_s, along_t], control) => {
                 tensor(control.len().isqrt(), control, &along_s.at(s), &along_t.at(t))
             }
@@ -152,8 +168,59 @@ pub(crate) fn vector(x: &Lanes) -> Vector3<f64> {
     Vector3::new(x[0], x[1], x[2])
 }
 
+/// From control points, along s first, to derivatives at the middle, given those of the functions.
+fn expand(order: usize, derivatives: &[f64], control: &mut [Lanes]) {
+    let mut line = [[0.0; 4]; MAX_ORDER];
+    for (stride, across) in [(1, order), (order, 1)] {
+        for first in (0..order).map(|i| i * across) {
+            for (at, weights) in derivatives.chunks_exact(order).enumerate() {
+                let mut sum = [0.0; 4];
+                for (i, &weight) in weights.iter().enumerate() {
+                    let point = &control[first + i * stride];
+                    sum.iter_mut().zip(point).for_each(|(sum, x)| *sum += weight * x);
+                }
+                line[at] = sum;
+            }
+            for (at, &value) in line[..order].iter().enumerate() {
+                control[first + at * stride] = value;
+            }
+        }
+    }
+}
+
 fn of_order<const K: usize>(piece: &Piece, control: &[Lanes], s: f64, t: f64) -> Jet3 {
-    tensor(K, control, &piece.of_order::<K>(s), &piece.of_order::<K>(t))
+    expanded(K, control, &piece.span::<K>(s), &piece.span::<K>(t))
+}
+
+/// The jet of a piece from its derivatives at the middle.
+#[inline(always)]
+fn expanded<const M: usize>(order: usize, control: &[Lanes], in_s: &[[f64; M]; 3], in_t: &[[f64; M]; 3]) -> Jet3 {
+    // functions before these have no such derivative; the second of order 3 is no monomial
+    let from = [0, 1, 2.min(order - 2)];
+    // sums along rows first: more of them at a time than registers hold
+    let mut along = [[[0.0; 4]; 3]; M];
+    for (sums, row) in along.iter_mut().zip(control.chunks_exact(order)) {
+        for ((sum, weights), from) in sums.iter_mut().zip(in_s).zip(from) {
+            for (&weight, point) in weights[from..order].iter().zip(&row[from..]) {
+                add(sum, weight, point);
+            }
+        }
+    }
+    let across = |derivative: usize, in_row: usize| {
+        let mut sum = [0.0; 4];
+        for j in from[derivative]..order {
+            add(&mut sum, in_t[derivative][j], &along[j][in_row]);
+        }
+        sum
+    };
+    let (x, xs, xss) = (across(0, 0), across(0, 1), across(0, 2));
+    let (xt, xst, xtt) = (across(1, 0), across(1, 1), across(2, 0));
+    [x, xs, xt, xss, xst, xtt]
+}
+
+#[inline(always)]
+fn add(sum: &mut Lanes, weight: f64, point: &Lanes) {
+    sum.iter_mut().zip(point).for_each(|(sum, x)| *sum += weight * x);
 }
 
 /// The jet of a piece whose control points run along s first.

@@ -219,11 +219,11 @@ impl Rotation {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Rules;
     use crate::limit::Surface;
     use crate::limit::centre::{Leading, composed, leading, turning};
     use crate::limit::local::Source;
     use crate::shapes::{StarKind, star};
+    use crate::{Rules, Topology};
     use eigenring_scheme::{Definition, Spec};
 
     /// Eigenvectors are judged by the matrix itself, their dominance by the dense decomposition.
@@ -252,7 +252,8 @@ mod tests {
             let start = topology.fan(0).spokes[0];
             let local = source.part(start, kernel.reach(), |_| None);
             let refined = local.refined(&rules, kernel, 0).unwrap();
-            let child = local.child(&refined, 0, kernel.reach()).unwrap();
+            let fine = Topology::unchecked(&refined.mesh);
+            let child = local.child(&refined, &fine, 0, kernel.reach()).unwrap();
             let matrix: Vec<Row> = child.unknowns().iter().map(|&id| composed(&refined, id)).collect();
             let rotation = Rotation::find(&matrix, &local, kernel.reach()).expect(spec);
             let dense = leading(&matrix)
