@@ -32,6 +32,20 @@ fn meshes(c: &mut Criterion) {
     let points: Vec<[f64; 3]> = vec![[1.0; 3]; hybrid.net().topology().vertex_count()];
     let (table, _) = hybrid.halved().expect("positive intervals");
     group.bench_function("its table on three channels", |b| b.iter(|| table.apply(&points)));
+    // a hybrid net of a cube has eight extraordinary faces and doubled lines along all edges
+    let cube = Net::new(&shapes::cube()).expect("quads with equal intervals");
+    let coarse = eigenring_nonuniform::HybridNet::of(&cube, FirstLevel::Improved, Outside::Error);
+    let coarse = coarse.expect("a closed mesh of quads").net;
+    let points: Vec<[f64; 3]> = vec![[1.0; 3]; coarse.net().topology().vertex_count()];
+    for levels in [9, 10] {
+        group.bench_function(format!("{levels} halvings of HNUSS by blocks"), |b| {
+            b.iter(|| {
+                let mut blocks = coarse.blocks(points.clone());
+                (0..levels).for_each(|_| blocks.halve().expect("positive intervals"));
+                blocks.into_mesh()
+            });
+        });
+    }
     group.bench_function("a level of NURSS", |b| b.iter(|| nurss_step(&net)));
     group.bench_function("a hybrid net", |b| {
         b.iter(|| eigenring_nonuniform::Refinement::new(&mesh, Scheme::Hnuss(FirstLevel::Improved), Outside::Error));

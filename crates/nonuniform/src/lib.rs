@@ -24,7 +24,7 @@ pub use characteristic::CharacteristicMap;
 pub use eigen_polyhedron::{EigenPolyhedron, safe_ratio};
 pub use error::{Error, MAX_SPOKES, Marked, Place};
 pub use first_level::FirstLevel;
-pub use hybrid::{Converted, HybridNet, Outside};
+pub use hybrid::{Blocks, Converted, HybridNet, Outside};
 pub use intervals::KnotIntervals;
 pub use limits::{Limits, VertexLimit};
 pub use net::Net;

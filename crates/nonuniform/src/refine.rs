@@ -215,6 +215,30 @@ impl Refinement {
         &self.tables
     }
 
+    /// The mesh of the last net, of HNUSS after so many halvings, which need no tables: of the points that
+    /// `parts` makes of those found, and their weights.
+    fn finest<const D: usize>(
+        &self,
+        points: &[[f64; D]],
+        halvings: usize,
+        parts: impl Fn(&[[f64; D]]) -> (Vec<Point3<f64>>, Option<Vec<f64>>),
+    ) -> Result<Mesh, Error> {
+        let points = self.apply(points)?;
+        let Some(hybrid) = self.hybrid() else {
+            let (points, weights) = parts(&points);
+            return Ok(self.net().with_points(points, weights));
+        };
+        let mut blocks = hybrid.blocks(points);
+        (0..halvings).try_for_each(|_| blocks.halve())?;
+        let (points, weights) = parts(blocks.points());
+        let mut mesh = blocks.mesh(points)?;
+        if let Some(weights) = weights {
+            mesh.set_weights(weights);
+        }
+        mesh.features.knots = blocks.intervals().into_iter().collect();
+        Ok(mesh)
+    }
+
     /// Points of the last net from those of the control mesh without unused ones: `D` numbers each, whatever
     /// they mean.
     ///
@@ -236,23 +260,24 @@ impl Refinement {
 /// Those of [`Refinement`].
 pub fn refined(mesh: &Mesh, scheme: Scheme, levels: usize, outside: Outside) -> Result<Refined, Error> {
     let mut refinement = Refinement::new(mesh, scheme, outside)?;
-    for _ in 0..levels {
-        refinement.refine()?;
+    if refinement.hybrid().is_none() {
+        (0..levels).try_for_each(|_| refinement.refine())?;
     }
     let mesh = mesh.without_unused();
-    let net = refinement.net();
     let mut refined = match mesh.weights() {
         None => {
             let points: Vec<[f64; 3]> = mesh.points().iter().map(|p| [p.x, p.y, p.z]).collect();
-            let points = refinement.apply(&points)?;
-            net.with_points(points.into_iter().map(Point3::from).collect(), None)
+            refinement.finest(&points, levels, |points| {
+                (points.iter().map(|&point| Point3::from(point)).collect(), None)
+            })?
         }
         Some(weights) => {
             let points = mesh.points().iter().zip(weights);
             let lifted: Vec<[f64; 4]> = points.map(|(p, w)| [w * p.x, w * p.y, w * p.z, *w]).collect();
-            let found = refinement.apply(&lifted)?;
-            let points = found.iter().map(|[x, y, z, w]| Point3::new(x / w, y / w, z / w));
-            net.with_points(points.collect(), Some(found.iter().map(|p| p[3]).collect()))
+            refinement.finest(&lifted, levels, |points| {
+                let projected = points.iter().map(|[x, y, z, w]| Point3::new(x / w, y / w, z / w));
+                (projected.collect(), Some(points.iter().map(|p| p[3]).collect()))
+            })?
         }
     };
     // the net of HNUSS says by its faces what it is

@@ -85,6 +85,60 @@ fn regular_grids_are_refined_as_by_knot_insertion() {
     }
 }
 
+/// How far the edges of two meshes are from each other: their middles, and their intervals.
+pub fn distance_of_edges(a: &Mesh, b: &Mesh) -> f64 {
+    let edges = |mesh: &Mesh| -> Vec<[f64; 4]> {
+        let knots = mesh.features.knots.iter();
+        let middle = |&[a, b]: &[u32; 2]| {
+            let [a, b] = [a, b].map(|end| mesh.points()[end as usize].coords);
+            (a + b) / 2.0
+        };
+        let at = knots.map(|(pair, &d)| (middle(pair), d));
+        at.map(|(p, d)| [p.x, p.y, p.z, d]).collect()
+    };
+    assert_eq!(a.features.knots.len(), b.features.knots.len());
+    let expected: Vec<Vec<f64>> = edges(b).iter().map(|edge| edge.to_vec()).collect();
+    distance(&edges(a), &expected)
+}
+
+/// Blocks against the tables of single levels, which are held to account by the prototype: points, and edges
+/// with their intervals at the same places.
+#[test]
+fn blocks_are_halvings() {
+    let cases = cases();
+    let grids = cases.regular.iter().map(|case| grid(case).0);
+    let meshes = cases.meshes.iter().map(|case| mesh_of(&case.control));
+    let (mut cut, mut ngons) = (0, 0);
+    for mesh in grids.chain(meshes) {
+        let size = mesh.points().iter().fold(0.0, |m: f64, p| m.max(p.coords.amax()));
+        let mut refinement = Refinement::new(&mesh, HNUSS, Outside::Error).unwrap();
+        for level in 0..3 {
+            if level > 0 {
+                refinement.refine().unwrap();
+            }
+            let lifted: Vec<[f64; 4]> = mesh
+                .points()
+                .iter()
+                .zip(0..)
+                .map(|(p, k)| {
+                    let w = mesh.weights().map_or(1.0, |weights| weights[k]);
+                    [w * p.x, w * p.y, w * p.z, w]
+                })
+                .collect();
+            let points = refinement.apply(&lifted).unwrap();
+            let points = points.iter().map(|[x, y, z, w]| Point3::new(x / w, y / w, z / w));
+            let expected = refinement.net().with_points(points.collect(), None);
+            let found = refined(&mesh, HNUSS, level, Outside::Error).unwrap().mesh;
+            assert_eq!(found.faces_by_size(), expected.faces_by_size());
+            let error = distance_of_edges(&found, &expected);
+            assert!(error < 1e-13 * size.max(1.0), "level {level}: {error:e}");
+            cut += found.face_count();
+            ngons += found.faces().filter(|face| face.len() != 4).count();
+        }
+    }
+    assert!(cut > 1000 && ngons > 10, "{cut} faces, {ngons} extraordinary ones");
+}
+
 pub fn mesh_of(net: &Net) -> Mesh {
     let points = net.points.iter().map(|p| Point3::new(p[0], p[1], p[2]));
     let mut mesh = Mesh::new(points.collect(), net.faces.as_ref().unwrap()).unwrap();

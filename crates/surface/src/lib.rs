@@ -49,6 +49,7 @@ mod topology;
 mod walk;
 mod workers;
 
+pub use block::layout::Layout;
 pub use defects::{Defect, DefectKind, Element};
 pub use dual::CellNet;
 pub use error::Error;

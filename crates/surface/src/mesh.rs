@@ -69,6 +69,33 @@ impl Mesh {
         }
     }
 
+    /// A mesh of faces of the given sizes, with their corners one after the other, all of them below the
+    /// number of points.
+    pub(crate) fn of_faces(
+        points: Vec<Point3<f64>>,
+        sizes: impl IntoIterator<Item = usize>,
+        corners: Vec<u32>,
+    ) -> Result<Self, crate::Error> {
+        let mut end = 0;
+        let mut starts = vec![0];
+        starts.extend(sizes.into_iter().map(|size| {
+            end += size;
+            end as u32
+        }));
+        debug_assert_eq!(end, corners.len());
+        if u32::try_from(end).is_err() {
+            return Err(crate::Error::TooLarge {
+                what: "corners of faces",
+                count: end,
+            });
+        }
+        Ok(Mesh {
+            starts,
+            corners,
+            ..Mesh::of_points(points)
+        })
+    }
+
     /// Adds a point and returns its index.
     pub fn push_point(&mut self, point: Point3<f64>) -> u32 {
         self.points.push(point);

@@ -4,8 +4,11 @@
 //! in one direction (a doubled line) or in both (where two such lines cross), and extraordinary n-gons, one
 //! for each irregular vertex of the mesh.
 
+mod blocks;
 mod convert;
 mod halve;
+
+pub use blocks::Blocks;
 
 use crate::{Error, FirstLevel, Net, Place};
 use eigenring_scheme::Table;

@@ -11,7 +11,7 @@
 
 pub(crate) mod dual;
 mod kernel;
-mod layout;
+pub(crate) mod layout;
 mod pass;
 
 use crate::active::{Active, Ends};
@@ -99,17 +99,17 @@ impl Blocks<'_> {
     fn refined(&self, old: &[Point3<f64>], n: usize, pass: &Pass) -> Vec<Point3<f64>> {
         let topology = self.source.topology;
         let kernel = &pass.kernel;
-        let coarse = Layout { topology, n };
+        let coarse = Layout::new(topology, n, |_| true);
         let size = kernel.scale() * n;
-        let fine = Layout { topology, n: size };
+        let fine = Layout::new(topology, size, |_| true);
         let mut new = origins(fine.count());
         let (outer, inner) = new.split_at_mut(fine.inner_start());
         self.outer(old, &coarse, pass, outer);
         let parts = inner.chunks_mut((size - 1) * (size - 1)).collect();
         self.workers.points(parts, &|face, targets| {
             let mut block = Vec::with_capacity((n + 1) * (n + 1));
-            let start = coarse.inner(face);
-            coarse.block(old, &old[start..start + (n - 1) * (n - 1)], face as u32, &mut block);
+            let face = face as u32;
+            coarse.block(old, &old[coarse.inner(face)], face, &mut block);
             kernel.run(&block, n, targets);
         });
         for (half, q, row) in &pass.special {
@@ -122,10 +122,7 @@ impl Blocks<'_> {
     /// corners and sides, which are therefore put in their places last.
     fn smoothed(&self, mut points: Vec<Point3<f64>>, n: usize, pass: &Pass) -> Vec<Point3<f64>> {
         debug_assert!(pass.special.is_empty(), "smoothing has rows of vertices only");
-        let layout = Layout {
-            topology: self.source.topology,
-            n,
-        };
+        let layout = Layout::new(self.source.topology, n, |_| true);
         let mut outer = vec![Point3::origin(); layout.inner_start()];
         self.outer(&points, &layout, pass, &mut outer);
         let (before, inner) = points.split_at_mut(layout.inner_start());
@@ -143,8 +140,9 @@ impl Blocks<'_> {
 
     /// The corners and sides that a pass makes.
     fn outer(&self, old: &[Point3<f64>], coarse: &Layout<'_>, pass: &Pass, outer: &mut [Point3<f64>]) {
-        let (topology, n) = (self.source.topology, coarse.n);
-        let (corners, sides) = outer.split_at_mut(coarse.side_start());
+        let topology = self.source.topology;
+        let n = coarse.parts(0);
+        let (corners, sides) = outer.split_at_mut(topology.vertex_count());
         for (point, row) in corners.iter_mut().zip(&pass.corners) {
             *point = combined(old, coarse, row);
         }
@@ -174,27 +172,11 @@ impl Blocks<'_> {
     /// The quads of blocks of size `n`, and the marks on them.
     fn mesh(&self, points: Vec<Point3<f64>>, n: usize) -> Mesh {
         let topology = self.source.topology;
-        let layout = Layout { topology, n };
+        let layout = Layout::new(topology, n, |_| true);
         let mut corners = vec![0_u32; topology.half_count() * n * n];
         let parts = corners.chunks_mut(4 * n * n).collect();
-        self.workers.indices(parts, &|face, part| {
-            let mut quads = part.chunks_exact_mut(4);
-            let row = |y: usize, into: &mut Vec<u32>| {
-                into.clear();
-                into.extend((0..=n).map(|x| layout.grid(face as u32, x, y) as u32));
-            };
-            let (mut low, mut high) = (Vec::with_capacity(n + 1), Vec::with_capacity(n + 1));
-            row(0, &mut low);
-            for y in 0..n {
-                row(y + 1, &mut high);
-                for x in 0..n {
-                    if let Some(quad) = quads.next() {
-                        quad.copy_from_slice(&[low[x], low[x + 1], high[x + 1], high[x]]);
-                    }
-                }
-                std::mem::swap(&mut low, &mut high);
-            }
-        });
+        self.workers
+            .indices(parts, &|face, part| layout.quads(face as u32, part));
         let mut mesh = Mesh::of_quads(points, corners);
         let (coarse, fine) = (&self.mesh.features, &mut mesh.features);
         fine.boundary = coarse.boundary;

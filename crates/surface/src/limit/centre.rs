@@ -10,9 +10,9 @@ use super::local::Local;
 use super::net::{Control, control};
 use super::patch::Patch;
 use super::rotation::Rotation;
-use crate::refine::{Row, Step, add};
+use crate::refine::{Row, Step};
 use crate::rules::Rules;
-use crate::{Error, Topology};
+use crate::{Error, NONE, Topology};
 use eigenring_scheme::{Complex, Table};
 use eigenring_spectral::{Block, Matrix};
 use std::collections::HashMap;
@@ -130,18 +130,34 @@ pub(crate) struct Centre {
     pub beyond: Option<Vec<[f64; 2]>>,
 }
 
-/// The row of a refined point over the points before.
-pub(crate) fn composed(refined: &Step, index: u32) -> Row {
-    let mut row: Row = vec![(index, 1.0)];
-    for table in refined.tables.iter().rev() {
-        let mut before = Row::new();
-        for (at, weight) in row {
-            let terms: Row = table.row(at as usize).map(|(source, &w)| (source as u32, w)).collect();
-            add(&mut before, weight, &terms);
+/// The rows of refined points over the points before.
+pub(super) fn composed(refined: &Step, points: &[u32]) -> Vec<Row> {
+    // where the term of a source is in its row, so that long rows take no longer than they have terms
+    let mut places: Vec<u32> = Vec::new();
+    let row = |&point: &u32| {
+        let mut row: Row = vec![(point, 1.0)];
+        for table in refined.tables.iter().rev() {
+            let mut before = Row::new();
+            for (at, weight) in row {
+                for (source, &own) in table.row(at as usize) {
+                    if source >= places.len() {
+                        places.resize(source + 1, NONE);
+                    }
+                    match places[source] {
+                        NONE => {
+                            places[source] = before.len() as u32;
+                            before.push((source as u32, weight * own));
+                        }
+                        place => before[place as usize].1 += weight * own,
+                    }
+                }
+            }
+            before.iter().for_each(|&(source, _)| places[source as usize] = NONE);
+            row = before;
         }
-        row = before;
-    }
-    row
+        row
+    };
+    points.iter().map(row).collect()
 }
 
 /// A part of a mesh that ends where its rules read: at a boundary without rules.
@@ -309,7 +325,7 @@ impl Stage {
         level: usize,
         next: Option<(&Stage, &Result<Pair, Undefined>)>,
     ) -> Result<(Self, Option<Result<Pair, Undefined>>), Error> {
-        let matrix: Vec<Row> = child.unknowns().iter().map(|&id| composed(&refined, id)).collect();
+        let matrix = composed(&refined, child.unknowns());
         let quarter = |corner| Quarter::new(local, (&refined, topology), corner, level + 1, kernel);
         let quarters = [quarter(1)?, quarter(2)?, quarter(3)?];
         let rotation = match next {
@@ -320,7 +336,7 @@ impl Stage {
             None => {
                 let pair = pair(&matrix, local, rotation.as_ref())?;
                 (
-                    limit(&matrix),
+                    limit(&matrix, rotation.as_ref()),
                     pair.as_ref().ok().map(|pair| pair.left.clone()),
                     Some(pair),
                 )
@@ -551,13 +567,27 @@ fn block(matrix: &[Row]) -> Block<f64> {
     Block::Real(Matrix::from_fn(matrix.len(), matrix.len(), weight))
 }
 
-/// The left eigenvector of 1, by powers of the transpose: all others vanish, the slowest like the subdominant
+/// The left eigenvector of 1, whose entries add up to 1.
+pub(super) fn limit(matrix: &[Row], rotation: Option<&Rotation>) -> Vec<f64> {
+    let Some(rotation) = rotation else {
+        return fixed(matrix.len(), |weights| times(weights, matrix));
+    };
+    // the same at all points of an orbit, and nothing at points outside of the rings
+    let block = rotation.means();
+    let parts = fixed(block.len(), |weights| {
+        let column = |j: usize| weights.iter().zip(&block).map(|(w, row)| w * row[j]).sum();
+        (0..block.len()).map(column).collect()
+    });
+    rotation.shared(&parts, matrix.len())
+}
+
+/// The row that a map leaves as it is, by its powers: all others vanish, the slowest like the subdominant
 /// eigenvalue.
-fn limit(matrix: &[Row]) -> Vec<f64> {
-    let mut weights = vec![0.0; matrix.len()];
+fn fixed(size: usize, map: impl Fn(&[f64]) -> Vec<f64>) -> Vec<f64> {
+    let mut weights = vec![0.0; size];
     weights[0] = 1.0;
     for _ in 0..4000 {
-        let next = times(&weights, matrix);
+        let next = map(&weights);
         let change = next
             .iter()
             .zip(&weights)

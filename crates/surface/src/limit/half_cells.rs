@@ -10,6 +10,7 @@ use super::dual;
 use super::kernel::Kernel;
 use super::local::Local;
 use crate::features::{INFINITE, edge};
+use crate::refine::Row;
 use crate::rules::Rules;
 use crate::walk::locate;
 use crate::{Error, Mesh, Topology};
@@ -57,10 +58,8 @@ impl HalfCell {
         let topology = Topology::unchecked(&refined.mesh);
         let after = numbers(&sites, faces, &topology, refined.net.as_ref().ok_or_else(missing)?)?;
         let columns: HashMap<u32, u32> = before.into_iter().zip(0..).collect();
-        let row = |&point: &u32| -> Result<Vec<(u32, f64)>, Error> {
-            let terms = composed(&refined, point)
-                .into_iter()
-                .filter(|(_, weight)| *weight != 0.0);
+        let row = |terms: Row| -> Result<Row, Error> {
+            let terms = terms.into_iter().filter(|(_, weight)| *weight != 0.0);
             let mut row = terms
                 .map(|(at, weight)| columns.get(&at).map(|&column| (column, weight)))
                 .collect::<Option<Vec<_>>>()
@@ -69,7 +68,10 @@ impl HalfCell {
             Ok(row)
         };
         Ok(HalfCell {
-            rows: after.iter().map(row).collect::<Result<_, _>>()?,
+            rows: composed(&refined, &after)
+                .into_iter()
+                .map(row)
+                .collect::<Result<_, _>>()?,
             sites,
             closed_rings,
             level: [level, kernel.stationary],

@@ -88,6 +88,12 @@ impl Source<'_> {
     }
 
     pub fn sharp_spokes(&self, vertex: u32) -> usize {
+        // around vertices of many faces a look at each spoke takes as long as they are many
+        let first = self.topology.first_spoke(vertex);
+        let is_inside = first.is_some_and(|spoke| self.topology.turned_back(spoke).is_some());
+        if is_inside && self.mesh.features.creases.is_empty() {
+            return 0;
+        }
         let spokes = self.spokes(vertex).into_iter();
         spokes.filter(|&spoke| self.cuts(spoke)).count()
     }

@@ -154,6 +154,37 @@ impl Rotation {
         Block::Complex(Matrix::from_fn(size, size, |i, j| entries[i][j]))
     }
 
+    /// The block of frequency 0, of what is alike in all sectors: rows of the centre, if it is a point, and
+    /// of the orbits.
+    pub fn means(&self) -> Vec<Vec<f64>> {
+        let first = usize::from(self.fixed.is_some());
+        let size = self.orbits.len() + first;
+        let row = |terms: &Vec<Term>| {
+            let mut row = vec![0.0; size];
+            for &(place, weight) in terms {
+                row[place.map_or(0, |(orbit, _)| first + orbit)] += weight;
+            }
+            row
+        };
+        let centre = self.fixed.map(|_| &self.centre);
+        centre.into_iter().chain(&self.rows).map(row).collect()
+    }
+
+    /// The row of weights at all points whose sums over orbits are those of a row of [`Rotation::means`].
+    pub fn shared(&self, sums: &[f64], points: usize) -> Vec<f64> {
+        let mut weights = vec![0.0; points];
+        let mut sums = sums.iter();
+        if let (Some(centre), Some(&sum)) = (self.fixed, self.fixed.and_then(|_| sums.next())) {
+            weights[centre as usize] = sum;
+        }
+        for (orbit, sum) in self.orbits.iter().zip(sums) {
+            orbit
+                .iter()
+                .for_each(|&point| weights[point as usize] = sum / self.sectors as f64);
+        }
+        weights
+    }
+
     /// A vector of a frequency above 0 at all points of the orbits, its real and imaginary parts: `v_p w^(k
     /// s)` of right vectors, `v_p w^(-k s)` of left ones.
     pub fn spread(&self, k: usize, vector: &[Complex<f64>], left: bool, points: usize) -> [Vec<f64>; 2] {
@@ -220,7 +251,7 @@ impl Rotation {
 mod tests {
     use super::*;
     use crate::limit::Surface;
-    use crate::limit::centre::{Leading, composed, leading, turning};
+    use crate::limit::centre::{Leading, composed, leading, limit, turning};
     use crate::limit::local::Source;
     use crate::shapes::{StarKind, star};
     use crate::{Rules, Topology};
@@ -254,11 +285,22 @@ mod tests {
             let refined = local.refined(&rules, kernel, 0).unwrap();
             let fine = Topology::unchecked(&refined.mesh);
             let child = local.child(&refined, &fine, 0, kernel.reach()).unwrap();
-            let matrix: Vec<Row> = child.unknowns().iter().map(|&id| composed(&refined, id)).collect();
+            let matrix = composed(&refined, child.unknowns());
             let rotation = Rotation::find(&matrix, &local, kernel.reach()).expect(spec);
             let dense = leading(&matrix)
                 .unwrap()
                 .unwrap_or_else(|why| panic!("{spec}: {why:?}"));
+            // the limit is a left eigenvector of the whole matrix
+            let fixed = limit(&matrix, Some(&rotation));
+            let mut back = vec![0.0; matrix.len()];
+            for (row, weight) in matrix.iter().zip(&fixed) {
+                row.iter().for_each(|&(at, w)| back[at as usize] += weight * w);
+            }
+            let off = back.iter().zip(&fixed).map(|(b, l)| (b - l).abs());
+            let off = off.fold(0.0, f64::max);
+            // the rounding of sums over all sectors
+            assert!(off < 1e-14, "{spec}: limit {off:e}");
+            assert!((fixed.iter().sum::<f64>() - 1.0).abs() < 1e-14, "{spec}: limit");
             let Leading { values, right, left } = turning(&matrix, &rotation).unwrap().unwrap();
             for (value, expected) in values.iter().zip(dense.values) {
                 assert!((value - expected).abs() < 1e-12, "{spec}: {value} {expected}");
