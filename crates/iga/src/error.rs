@@ -110,11 +110,13 @@ pub enum Error {
     },
     /// The map is not regular.
     #[error(
-        "the Jacobian is {value:e} at a point of face {face}: accepted are positive ones, of faces that are not folded and run counter-clockwise"
+        "the Jacobian is {value:e} at {at:?} in face {face} of the level: accepted are positive ones, of faces that are not folded and run counter-clockwise"
     )]
     Jacobian {
-        /// The face of the refined mesh.
+        /// The face of the level's mesh.
         face: usize,
+        /// The point.
+        at: [f64; 3],
         /// Its value in the parameters of the patch.
         value: f64,
     },

@@ -41,21 +41,48 @@ pub(crate) struct Exact {
     pub hessian: [f64; 3],
 }
 
-impl Geometry {
-    /// At a point where the functions have these jets; the determinant if it is not positive. Second
-    /// derivatives of the map are left out unless wanted.
-    pub fn new(jets: &[Jet], points: &[[f64; 3]], weight: f64, planar: bool, second: bool) -> Result<Self, f64> {
-        let mut d = [[0.0; 3]; 6];
-        let axes = if planar { 2 } else { 3 };
-        for (jet, point) in jets.iter().zip(points) {
-            // no loop over the derivatives that are not wanted
-            for axis in 0..axes {
-                let c = point[axis];
-                (0..3).for_each(|k| d[k][axis] += c * jet[k]);
-                if second {
-                    (3..6).for_each(|k| d[k][axis] += c * jet[k]);
-                }
+/// A point where the map is not regular.
+#[derive(Debug)]
+pub(crate) struct Irregular {
+    pub at: [f64; 3],
+    /// The determinant.
+    pub value: f64,
+}
+
+/// Of the first coordinates of points the combinations by the first entries of jets, order by order: loops of
+/// known lengths, whose sums stay in registers.
+fn sums<const AXES: usize, const ORDERS: usize>(jets: &[Jet], points: &[[f64; 3]], d: &mut [[f64; 3]; 6]) {
+    let mut sums = [[0.0; ORDERS]; AXES];
+    for (jet, point) in jets.iter().zip(points) {
+        for axis in 0..AXES {
+            for order in 0..ORDERS {
+                sums[axis][order] += point[axis] * jet[order];
             }
+        }
+    }
+    for axis in 0..AXES {
+        for order in 0..ORDERS {
+            d[order][axis] = sums[axis][order];
+        }
+    }
+}
+
+impl Geometry {
+    /// At a point where the functions have these jets. Second derivatives of the map are left out unless
+    /// wanted.
+    pub fn new(
+        jets: &[Jet],
+        points: &[[f64; 3]],
+        weight: f64,
+        planar: bool,
+        second: bool,
+    ) -> Result<Self, Irregular> {
+        let mut d = [[0.0; 3]; 6];
+        match (planar, second) {
+            (true, false) => sums::<2, 3>(jets, points, &mut d),
+            (true, true) => sums::<2, 6>(jets, points, &mut d),
+            (false, false) => sums::<3, 3>(jets, points, &mut d),
+            (false, true) => sums::<3, 6>(jets, points, &mut d),
         }
         let [x, xs, xt, ..] = d;
         let (frame, normal, det) = if planar {
@@ -68,7 +95,7 @@ impl Geometry {
             ([first, cross(normal, first)], normal, area)
         };
         if !(det > 0.0) {
-            return Err(det);
+            return Err(Irregular { at: x, value: det });
         }
         let j = frame.map(|e| [dot(e, xs), dot(e, xt)]);
         Ok(Geometry {

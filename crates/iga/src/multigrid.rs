@@ -16,6 +16,7 @@ const MOST: usize = 200;
 
 struct Level {
     matrix: Sparse,
+    diagonal: Vec<f64>,
     up: Sparse,
     down: Sparse,
 }
@@ -34,17 +35,10 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-fn relax(matrix: &Sparse, right: &[f64], x: &mut [f64], rows: impl Iterator<Item = usize>) {
+/// A sweep of Gauss and Seidel.
+fn relax(level: &Level, right: &[f64], x: &mut [f64], rows: impl Iterator<Item = usize>) {
     for row in rows {
-        let (mut rest, mut diagonal) = (right[row], 0.0);
-        for (column, value) in matrix.row(row) {
-            if column == row {
-                diagonal = value;
-            } else {
-                rest -= value * x[column];
-            }
-        }
-        x[row] = rest / diagonal;
+        x[row] += (right[row] - level.matrix.row_times(row, x)) / level.diagonal[row];
     }
 }
 
@@ -57,7 +51,13 @@ impl Multigrid {
         for up in embeddings.into_iter().rev() {
             let down = up.transposed();
             let coarse = down.product(&matrix.product(&up));
-            levels.push(Level { matrix, up, down });
+            let diagonal = matrix.diagonal();
+            levels.push(Level {
+                matrix,
+                diagonal,
+                up,
+                down,
+            });
             matrix = coarse;
         }
         levels.reverse();
@@ -79,14 +79,15 @@ impl Multigrid {
             self.used.list.iter().zip(solution).for_each(|(&i, value)| x[i] = value);
             return x;
         };
-        let Level { matrix, up, down } = &self.levels[finer];
+        let level = &self.levels[finer];
+        let Level { matrix, up, down, .. } = level;
         let n = matrix.height();
         let mut x = vec![0.0; n];
-        (0..2).for_each(|_| relax(matrix, right, &mut x, 0..n));
+        (0..2).for_each(|_| relax(level, right, &mut x, 0..n));
         let rest: Vec<f64> = right.iter().zip(matrix.times(&x)).map(|(b, ax)| b - ax).collect();
         let correction = up.times(&self.cycle(finer, &down.times(&rest)));
         x.iter_mut().zip(correction).for_each(|(x, c)| *x += c);
-        (0..2).for_each(|_| relax(matrix, right, &mut x, (0..n).rev()));
+        (0..2).for_each(|_| relax(level, right, &mut x, (0..n).rev()));
         x
     }
 

@@ -1,7 +1,7 @@
 //! Norms of errors.
 
 use crate::Error;
-use crate::assembly::{Tables, points_of};
+use crate::assembly::{Tables, points_of, refused};
 use crate::geometry::Geometry;
 use crate::solution::Solution;
 use crate::space::Space;
@@ -32,10 +32,8 @@ fn face_sums(space: &Space, tables: &Tables, face: usize, c: &[f64], u: &Solutio
     let base = c[points[0] as usize];
     for (q, &weight) in table.weights.iter().enumerate() {
         let jets = table.at(q);
-        let at = Geometry::new(jets, &positions, weight, space.planar, true).map_err(|value| Error::Jacobian {
-            face: cell.face as usize,
-            value,
-        })?;
+        let at = Geometry::new(jets, &positions, weight, space.planar, true)
+            .map_err(|irregular| refused(space, face, &irregular))?;
         let mut v = [0.0; 6];
         for (jet, &point) in jets.iter().zip(&points) {
             let value = c[point as usize] - base;

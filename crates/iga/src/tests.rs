@@ -1,9 +1,11 @@
 //! What no public function shows: nestedness, invariants of the matrices, deflation, the operator of Laplace
 //! and Beltrami.
 
-use crate::assembly::{Form, assemble};
+use crate::assembly::{Form, Load, assemble};
+use crate::boundary::nitsche;
 use crate::geometry::Geometry;
 use crate::hybrid;
+use crate::multigrid::Multigrid;
 use crate::nested::{embedding, refinement};
 use crate::norms::errors;
 use crate::solution;
@@ -155,6 +157,72 @@ fn coordinates_have_the_energy_of_the_area() {
         assert!((value - expected).abs() <= 1e-12, "{value} for {expected}");
     }
     assert!(ones.iter().all(|value| value.abs() <= 1e-12));
+}
+
+/// Traces and Frobenius norms of the matrices over control points and ghosts, whatever their order, against a
+/// prototype with 10 x 10 points.
+#[test]
+fn matrices_have_the_invariants_of_the_prototype() {
+    let cases: serde_json::Value = serde_json::from_str(include_str!("../tests/data/eigenvalues.json")).expect("JSON");
+    for case in cases.as_array().expect("cases") {
+        let [mesh, scheme] = ["mesh", "scheme"].map(|key| case[key].as_str().expect("text"));
+        let rules = rules(scheme);
+        let mut mesh = shapes::fan(mesh[3..].parse().expect("a valence"));
+        for _ in 0..case["level"].as_u64().expect("a level") {
+            mesh = refined(&mesh, &rules);
+        }
+        let mut space = space(&mesh, &rules, Ends::Open);
+        assert_eq!(Some(space.positions.len() as u64), case["dof"].as_u64());
+        assert_eq!(Some(space.inner as u64), case["interior_dof"].as_u64());
+        space.transform = (0..space.positions.len()).map(|i| vec![(i as u32, 1.0)]).collect();
+        let tables = space.tables(10, Depth::Area, false);
+        let (matrices, _) = assemble(&space, &tables, &[Form::Stiffness, Form::Mass], None).expect("matrices");
+        for (name, matrix) in ["K", "M"].into_iter().zip(&matrices) {
+            let diagonal = |row: usize| matrix.row(row).find(|(column, _)| *column == row).map_or(0.0, |e| e.1);
+            let trace = (0..matrix.height()).map(diagonal).sum::<f64>();
+            for (key, value) in [("trace", trace), ("frobenius", dot(&matrix.values, &matrix.values).sqrt())] {
+                let expected = case[format!("{key}_{name}")].as_f64().expect("a number");
+                let off = (value / expected - 1.0).abs();
+                assert!(off <= 1e-8, "{scheme}, {key} of {name}: {value} for {expected}, off {off:e}");
+            }
+        }
+    }
+}
+
+/// Nitsche's form is as well conditioned as the others, and what the two solvers leave is rounding and the
+/// goal of the iteration.
+#[test]
+fn both_solvers_of_nitsches_form_leave_small_residuals() {
+    let u = solution::named("mix").expect("a solution");
+    for (n, scheme) in [(3, "catmull-clark"), (6, "lambda:lambda=0.25")] {
+        let rules = rules(scheme);
+        let mut meshes = vec![shapes::fan(n)];
+        (0..3).for_each(|level| meshes.push(refined(&meshes[level], &rules)));
+        let spaces: Vec<Space> = meshes.iter().map(|mesh| space(mesh, &rules, Ends::Open)).collect();
+        let embeddings = (0..3).map(|k| embedding(&meshes[k], &spaces[k], &spaces[k + 1]).expect("a matrix"));
+        let fine = &spaces[3];
+        let load: &Load<'_> = &|at| {
+            let [xx, _, yy] = at.exact(&u).hessian;
+            -xx - yy
+        };
+        let tables = fine.tables(4, Depth::Area, false);
+        let (mut matrices, mut right) = assemble(fine, &tables, &[Form::Stiffness], Some(load)).expect("matrices");
+        let mut matrix = matrices.swap_remove(0);
+        nitsche(fine, &mut matrix, &mut right, &u);
+        let residual = |x: &[f64]| {
+            let rest: Vec<f64> = right.iter().zip(matrix.times(x)).map(|(b, ax)| b - ax).collect();
+            (dot(&rest, &rest) / dot(&right, &right)).sqrt()
+        };
+        let factored = matrix.factor().expect("a factor").solve(&right);
+        assert!(residual(&factored) < 1e-15, "{scheme}: {:e}", residual(&factored));
+        let cycle = Multigrid::new(matrix.clone(), embeddings.collect(), false).expect("a cycle");
+        let (iterated, _) = cycle.solve(&right).expect("a solution");
+        assert!(residual(&iterated) < 1e-12, "{scheme}: {:e}", residual(&iterated));
+        let largest = factored.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let off = factored.iter().zip(&iterated).map(|(a, b)| (a - b).abs());
+        let off = off.fold(0.0, f64::max) / largest;
+        assert!(off < 1e-9, "{scheme}: {off:e}");
+    }
 }
 
 #[test]

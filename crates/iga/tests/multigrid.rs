@@ -22,7 +22,7 @@ fn difference(a: &Outcome, b: &Outcome) -> f64 {
     pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs())) / largest
 }
 
-/// Twenty for 1e-10 (the prototype needs 14 to 19) are 24 for 1e-12, at which the iteration ends.
+/// The iteration ends at 1e-12; 14 to 19 led a prototype to 1e-10.
 #[test]
 fn few_iterations_give_the_solution_of_the_factor() {
     let schemes = [
@@ -37,7 +37,7 @@ fn few_iterations_give_the_solution_of_the_factor() {
         let cycle = solved(n, scheme, 3, Problem::Poisson, options, Solver::Multigrid);
         let factor = solved(n, scheme, 3, Problem::Poisson, options, Solver::Cholesky);
         let iterations = cycle.iterations.expect("conjugate gradients count them");
-        assert!(iterations <= 24, "{scheme}, N = {n}: {iterations}");
+        assert!(iterations <= 20, "{scheme}, N = {n}: {iterations}");
         let off = difference(&factor, &cycle);
         assert!(off <= 1e-8, "{scheme}, N = {n}: {off:e}");
     }
@@ -53,12 +53,11 @@ fn all_problems_have_nested_spaces() {
         dirichlet: Dirichlet::Nitsche,
         ..Options::default()
     };
-    // Nitsche's form hardly sees the functions at corners, whose coefficients are less certain
-    for (problem, options, tolerance) in [
-        (Problem::Poisson, natural, 1e-8),
-        (Problem::Poisson, nitsche, 1e-7),
-        (Problem::Neumann, Options::default(), 1e-8),
-        (Problem::Biharmonic, Options::default(), 1e-8),
+    for (problem, options) in [
+        (Problem::Poisson, natural),
+        (Problem::Poisson, nitsche),
+        (Problem::Neumann, Options::default()),
+        (Problem::Biharmonic, Options::default()),
     ] {
         let cycle = solved(5, "lambda:lambda=0.39", 2, problem, options, Solver::Multigrid);
         let factor = solved(5, "lambda:lambda=0.39", 2, problem, options, Solver::Cholesky);
@@ -68,7 +67,7 @@ fn all_problems_have_nested_spaces() {
             cycle.iterations
         );
         let off = difference(&factor, &cycle);
-        assert!(off <= tolerance, "{problem:?}, {options:?}: {off:e}");
+        assert!(off <= 1e-8, "{problem:?}, {options:?}: {off:e}");
     }
 }
 
