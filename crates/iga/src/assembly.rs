@@ -24,8 +24,10 @@ pub(crate) type Load<'a> = dyn Fn(&Geometry) -> f64 + Sync + 'a;
 
 pub(crate) type Tables = BTreeMap<Kind, Table>;
 
-/// Faces that are integrated before their matrices are added up: a bound on memory.
+/// Faces that are integrated before their matrices are added up, and entries of these matrices: bounds on
+/// memory.
 const BLOCK: usize = 4096;
+const ENTRIES: usize = 1 << 22;
 
 /// The unknowns of a face in ascending order, and how its control points depend on them; `None` if each is
 /// an unknown itself, the place in the face with each.
@@ -332,11 +334,16 @@ pub(crate) fn assemble(
 ) -> Result<(Vec<Sparse>, Vec<f64>), Error> {
     let mut sums = vec![pattern(space, tables); forms.len()];
     let mut right = vec![0.0; space.positions.len()];
-    let faces: Vec<usize> = (0..space.cells.len()).collect();
-    for block in faces.chunks(BLOCK) {
-        let parts: Vec<Local> = block
-            .par_iter()
-            .map_init(Factors::default, |factors, &face| {
+    let mut next = 0;
+    while next < space.cells.len() {
+        let (first, mut entries) = (next, 0);
+        while next < space.cells.len() && next < first + BLOCK && entries < ENTRIES {
+            entries += tables[&space.cells[next].kind].columns.len().pow(2);
+            next += 1;
+        }
+        let parts: Vec<Local> = (first..next)
+            .into_par_iter()
+            .map_init(Factors::default, |factors, face| {
                 local(space, tables, face, forms, load, factors)
             })
             .collect::<Result<_, _>>()?;

@@ -46,6 +46,22 @@ pub fn accepts(scheme: &Scheme<f64>) -> Result<bool, Error> {
 /// The most annuli of an extraordinary vertex: what they leave out is `lambda^400` of the area.
 pub(crate) const MOST_ANNULI: usize = 200;
 
+/// The largest valence: a face at an extraordinary vertex has `2N + 8` functions, so that N of them take the
+/// cube of N.
+pub(crate) const MOST_VALENCE: usize = 128;
+
+/// Refuses a valence above [`MOST_VALENCE`].
+pub(crate) fn check_valence(value: usize) -> Result<(), Error> {
+    match value <= MOST_VALENCE {
+        true => Ok(()),
+        false => Err(Error::Range {
+            name: "valence",
+            value,
+            accepted: "3 to 128",
+        }),
+    }
+}
+
 /// The rates in L2, H1, Linf and H2 that a subdominant eigenvalue predicts in the open space, with
 /// `a = log2(1/lambda)`: `min(4, 3a)`, `min(3, 2a)`, `min(4, 2a)`, `min(2, a)`. A count of the errors in the
 /// annuli, not a proof; 4, 3, 4, 2 without extraordinary vertices (lambda = 0).

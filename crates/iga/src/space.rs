@@ -280,6 +280,7 @@ impl Space {
             let mut centres = halves.clone().filter(|&half| special(topology.origin(half)));
             if let Some(half) = centres.next() {
                 let n = valence[topology.origin(half) as usize];
+                crate::check_valence(n)?;
                 let Some(points) = rings(&topology, half, n, 2) else {
                     return Ok(None);
                 };

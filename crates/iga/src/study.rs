@@ -112,6 +112,7 @@ impl<'a> Study<'a> {
             .extraordinary_faces()
             .map(|face| net.net().topology().face_size(face))
             .collect();
+        sizes.iter().try_for_each(|&size| crate::check_valence(size))?;
         let study = Study {
             // that of every n-gon (Li, Wei and Zhang 2019, Lemma 1)
             lambdas: sizes.into_iter().map(|n| (n, 0.5)).collect(),

@@ -295,14 +295,26 @@ impl Around {
 
     /// A face at the centre, in sector 0, over the points of two rings.
     pub fn irregular(&self, rule: &Rule, depth: usize, scaled: bool) -> Table {
-        let lift = product(&self.outer, &self.inner);
-        let mut power = Matrix::from_fn(self.s.rows(), self.s.rows(), |i, j| f64::from(u8::from(i == j)));
-        let mut deflated = power.clone();
+        let places: Vec<(i32, i32)> = (0..4)
+            .flat_map(|q| (0..4).map(move |p| (p, q)))
+            .filter(|(p, q)| *p.max(q) >= 2)
+            .collect();
+        let mut grids: Vec<[usize; 16]> = places.iter().map(|&(p, q)| self.rows(p, q)).collect();
+        let mut kept = grids.concat();
+        kept.sort_unstable();
+        kept.dedup();
+        for row in grids.iter_mut().flatten() {
+            *row = kept.binary_search(row).expect("it is kept");
+        }
+        let outer = Matrix::from_fn(kept.len(), self.outer.columns(), |i, j| self.outer[(kept[i], j)]);
+        // powers from the left are of these rows only
+        let lift = product(&outer, &self.inner);
+        let (mut power, mut deflated) = (lift.clone(), lift);
         let mut annuli = Vec::with_capacity(depth);
         for _ in 0..depth {
-            annuli.push((product(&lift, &power), product(&lift, &deflated)));
-            power = product(&self.s, &power);
-            deflated = product(&self.deflated, &deflated);
+            let next = (product(&power, &self.s), product(&deflated, &self.deflated));
+            annuli.push((power, deflated));
+            (power, deflated) = next;
         }
         let mut list = Vec::new();
         for (m, (values, derivatives)) in annuli.iter().enumerate() {
@@ -312,12 +324,7 @@ impl Around {
             } else {
                 1.0
             };
-            for (p, q) in (0..4)
-                .flat_map(|q| (0..4).map(move |p| (p, q)))
-                .filter(|(p, q)| *p.max(q) >= 2)
-            {
-                list.push((self.rows(p, q), values, derivatives, factor));
-            }
+            list.extend(grids.iter().map(|rows| (*rows, values, derivatives, factor)));
         }
         // deflation subtracts a multiple of the sum of all functions, whose derivatives vanish
         let used = |column: &usize| {
