@@ -1,19 +1,16 @@
-//! The space of one level of HNUSS: the functions of all points of its hybrid net.
+//! The space of one level of a scheme with knot intervals: the functions of all points of its net.
 //!
-//! Elements are the faces with an area; strips of no width carry none, but their points have functions.
-//! Regular elements have knot intervals of their own, those at extraordinary faces consist of pieces of many
-//! levels ([`Element`]). A second layer of ghosts, which no function of an element reads, carries the
+//! Elements are the faces with an area; strips of no width, which hybrid nets have, carry none, but their
+//! points have functions. Regular elements have knot intervals of their own, those at extraordinary faces of
+//! HNUSS and at extraordinary vertices of the others consist of pieces of many levels ([`Element`]). A second layer of ghosts, which no function of an element reads, carries the
 //! intervals that the boundary mirrors.
 
 use crate::Error;
 use crate::space::{Cell, Corner, Edge, Ends, Kind, Space, extended, transforms};
-use eigenring_nonuniform::{Element, HybridNet, Net, grid};
+use eigenring_nonuniform::{Element, HybridNet, Net, Refinement, VertexElements, grid};
 use eigenring_surface::features::edge;
 use eigenring_surface::{Point3, Topology};
 use std::collections::{BTreeMap, HashMap};
-
-/// Halvings at an extraordinary face by default: the rest of the area, `4^-m`, is rounding.
-pub(crate) const DEPTH: usize = 27;
 
 /// The intervals of the first two edges that lead inward from a boundary vertex, towards each of its inner
 /// neighbours.
@@ -75,15 +72,18 @@ fn with_ghosts(net: &Net, points: &[[f64; 3]]) -> Result<Ghosts, Error> {
     })
 }
 
-/// The space over a hybrid net that has been halved so often; `None` if boundaries are too close to each
-/// other or to an extraordinary face.
+/// An element with its points; `None` beside what is too close.
+type Found = Option<(Vec<u32>, Element)>;
+
+/// The space over the last net of a refinement, so many levels after the first; `None` if boundaries or
+/// extraordinary vertices or faces are too close to each other.
 pub(crate) fn space(
-    hybrid: &HybridNet,
+    refinement: &Refinement,
     points: &[[f64; 3]],
     halvings: usize,
     ends: Ends,
 ) -> Result<Option<Space>, Error> {
-    let own = hybrid.net();
+    let own = refinement.net();
     let coarse = own.topology();
     let Ghosts {
         net,
@@ -92,6 +92,14 @@ pub(crate) fn space(
         inward,
     } = with_ghosts(own, points)?;
     let extended = HybridNet::known(net);
+    let vertices = VertexElements::new(extended.net(), refinement.scheme());
+    let is_element = |face: u32| refinement.hybrid().is_none_or(|hybrid| hybrid.is_element(face));
+    let element = |face: u32| -> Result<Found, Error> {
+        Ok(match refinement.hybrid() {
+            Some(_) => Some(extended.element(face, halvings)?),
+            None => vertices.element(face)?,
+        })
+    };
     let topology = extended.net().topology();
     let mut boundary = vec![false; full.len()];
     layers.iter().for_each(|(v, _)| boundary[*v as usize] = true);
@@ -109,8 +117,10 @@ pub(crate) fn space(
     }
     let (mut cells, mut elements) = (Vec::new(), Vec::<Element>::new());
     let mut known: BTreeMap<Vec<u64>, usize> = BTreeMap::new();
-    for face in (0..coarse.face_count() as u32).filter(|&face| hybrid.is_element(face)) {
-        let (points, element) = extended.element(face, halvings)?;
+    for face in (0..coarse.face_count() as u32).filter(|&face| is_element(face)) {
+        let Some((points, element)) = element(face)? else {
+            return Ok(None);
+        };
         if points.iter().any(|&v| v as usize >= full.len()) {
             return Ok(None);
         }
@@ -134,11 +144,14 @@ pub(crate) fn space(
         if own.interval(half) == 0.0 {
             continue;
         }
-        let (_, element) = extended.element(face, halvings)?;
-        let (true, Some(points)) = (element.is_regular(), grid(topology, half)) else {
+        let (Some((_, element)), Some(points)) = (element(face)?, grid(topology, half)) else {
             return Ok(None);
         };
-        let [u, v] = element.pieces(1).0[0].intervals;
+        // one at an extraordinary vertex, or beside one, has several
+        let [piece] = &element.pieces(1).0[..] else {
+            return Ok(None);
+        };
+        let [u, v] = piece.intervals;
         let turned = |mut five: [f64; 5]| {
             five.reverse();
             five

@@ -143,7 +143,7 @@ pub(crate) fn tables(space: &Space, options: &Options, plate: bool) -> Result<Ta
     }
     if plate && space.elements.iter().any(|element| !element.is_regular()) {
         return Err(Error::Combination {
-            what: "a clamped plate in a space of HNUSS with extraordinary vertices",
+            what: "a clamped plate in a space with knot intervals and extraordinary vertices",
             accepted: "poisson, l2 and patch-test",
         });
     }

@@ -372,10 +372,6 @@ impl Space {
             Depth::Energy => around.plate_depth().unwrap_or(crate::MOST_ANNULI),
             Depth::Given(depth) => depth,
         };
-        let with_intervals = match depth {
-            Depth::Given(depth) => depth,
-            _ => crate::hybrid::DEPTH,
-        };
         let mut tables = BTreeMap::new();
         for cell in &self.cells {
             tables.entry(cell.kind).or_insert_with(|| match cell.kind {
@@ -385,7 +381,14 @@ impl Space {
                     let around = &self.around[&n];
                     around.irregular(rule, of(around), scaled)
                 }
-                Kind::Element(k) => element(&self.elements[k], rule, with_intervals, scaled),
+                Kind::Element(k) => {
+                    let of = &self.elements[k];
+                    let depth = match depth {
+                        Depth::Given(depth) => depth,
+                        _ => of.depth(),
+                    };
+                    element(of, rule, depth, scaled)
+                }
             });
         }
         tables

@@ -158,11 +158,12 @@ impl Sparse {
         }
     }
 
-    /// The factor of a symmetric matrix.
-    pub fn factor(&self) -> Result<Factor, Error> {
+    /// The factor of a symmetric matrix, which makes room for it.
+    pub fn factor(self) -> Result<Factor, Error> {
         let unknowns = self.height();
         let refused = || Error::NotDefinite { unknowns };
-        let (mut starts, mut rows, mut values) = (vec![0_u32], Vec::new(), Vec::new());
+        let half = (self.columns.len() + unknowns) / 2;
+        let (mut starts, mut rows, mut values) = (vec![0_u32], Vec::with_capacity(half), Vec::with_capacity(half));
         for column in 0..unknowns {
             for (row, value) in self.row(column).filter(|(row, _)| *row >= column) {
                 rows.push(row as u32);
@@ -170,6 +171,7 @@ impl Sparse {
             }
             starts.push(u32::try_from(rows.len()).map_err(|_| refused())?);
         }
+        drop(self);
         let symbolic = SymbolicSparseColMat::new_checked(unknowns, unknowns, starts, None, rows);
         let matrix = SparseColMat::new(symbolic, values);
         let factor = matrix.sp_cholesky(faer::Side::Lower).map_err(|_| refused())?;

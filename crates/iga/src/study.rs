@@ -9,10 +9,10 @@ use crate::space::{Ends, Space};
 use crate::sparse::Sparse;
 use crate::spectrum::{Membrane, Spectrum, spectrum};
 use crate::{Error, MOST_ANNULI, hybrid, predicted};
-use eigenring_nonuniform::{FirstLevel, Outside, Place, Refinement, Scheme};
+use eigenring_nonuniform::{Outside, Place, Refinement, Scheme, VertexElements};
 use eigenring_scheme::{Definition, Spec};
 use eigenring_surface::{Boundary, Mesh, Refiner, Rules};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What a mesh is the control mesh of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,8 +30,9 @@ pub enum Domain {
 enum Levels<'a> {
     /// A scheme, and whether its rules beside extraordinary vertices differ from the regular ones.
     Uniform(&'a Rules, bool),
-    /// HNUSS, from its hybrid net on.
-    Hybrid(Box<Refinement>),
+    /// A scheme with knot intervals: HNUSS from its hybrid net on, others from where rules around
+    /// extraordinary vertices do not change.
+    Intervals(Box<Refinement>),
 }
 
 /// A mesh whose levels carry spaces.
@@ -40,7 +41,8 @@ pub struct Study<'a> {
     levels: Levels<'a>,
     mesh: Mesh,
     domain: Domain,
-    /// Catmull-Clark steps that separated extraordinary vertices from each other and from the boundary.
+    /// Steps that separated extraordinary vertices from each other and from the boundary: of Catmull-Clark, of
+    /// NURSS and of eigen-polyhedra their own, one at least.
     pub steps: usize,
     /// The subdominant eigenvalues of the valences in the mesh other than 4.
     pub lambdas: Vec<(usize, f64)>,
@@ -92,12 +94,13 @@ impl<'a> Study<'a> {
         Err(Error::TooClose { steps: MOST_STEPS })
     }
 
-    /// A mesh with knot intervals under HNUSS: level 0 is its hybrid net. Where the rule of the first level
-    /// does not exist, `outside` says what is done.
+    /// A mesh with knot intervals. Level 0 of HNUSS is its hybrid net; where the rule of the first level does
+    /// not exist, `outside` says what is done. Level 0 of NURSS and of eigen-polyhedra is the net after one
+    /// level, or more ([`Study::steps`]), until extraordinary vertices are apart and rules there stationary.
     ///
     /// # Errors
     /// Those of [`Refinement::new`]; weights, and zero intervals across a boundary.
-    pub fn hybrid(mesh: &Mesh, rule: FirstLevel, outside: Outside, domain: Domain) -> Result<Self, Error> {
+    pub fn with_intervals(mesh: &Mesh, scheme: Scheme, outside: Outside, domain: Domain) -> Result<Self, Error> {
         check_points(mesh, domain)?;
         if mesh.weights().is_some() {
             return Err(Error::Combination {
@@ -106,30 +109,58 @@ impl<'a> Study<'a> {
             });
         }
         let mesh = mesh.without_unused();
-        let refinement = Refinement::new(&mesh, Scheme::Hnuss(rule), outside)?;
-        let net = refinement.hybrid().expect("HNUSS has a hybrid net");
-        let sizes: BTreeSet<usize> = net
-            .extraordinary_faces()
-            .map(|face| net.net().topology().face_size(face))
-            .collect();
-        sizes.iter().try_for_each(|&size| crate::check_valence(size))?;
-        let study = Study {
-            // that of every n-gon (Li, Wei and Zhang 2019, Lemma 1)
-            lambdas: sizes.into_iter().map(|n| (n, 0.5)).collect(),
-            levels: Levels::Hybrid(Box::new(refinement)),
+        let refinement = Refinement::new(&mesh, scheme, outside)?;
+        let mut study = Study {
+            lambdas: Vec::new(),
+            levels: Levels::Intervals(Box::new(refinement.clone())),
             mesh,
             domain,
             steps: 0,
         };
+        if let Some(net) = refinement.hybrid() {
+            let sizes: BTreeSet<usize> = net
+                .extraordinary_faces()
+                .map(|face| net.net().topology().face_size(face))
+                .collect();
+            sizes.iter().try_for_each(|&size| crate::check_valence(size))?;
+            // that of every n-gon (Li, Wei and Zhang 2019, Lemma 1)
+            study.lambdas = sizes.into_iter().map(|n| (n, 0.5)).collect();
+        } else {
+            study.separate(refinement)?;
+        }
         check_domain(&study.space(0, Ends::Open)?, domain)?;
         Ok(study)
+    }
+
+    /// Levels of NURSS or of eigen-polyhedra until there is a space.
+    fn separate(&mut self, mut refinement: Refinement) -> Result<(), Error> {
+        let all = refinement.net().mesh();
+        let valences = refinement.net().topology().valences();
+        valences.iter().try_for_each(|&(n, _)| crate::check_valence(n))?;
+        let points: Vec<[f64; 3]> = all.points().iter().map(|p| [p.x, p.y, p.z]).collect();
+        for step in 1..=MOST_STEPS {
+            refinement.refine()?;
+            if hybrid::space(&refinement, &refinement.apply(&points)?, 0, Ends::Open)?.is_none() {
+                continue;
+            }
+            let mut worst: BTreeMap<usize, f64> = BTreeMap::new();
+            for (n, lambda) in VertexElements::new(refinement.net(), refinement.scheme()).lambdas()? {
+                let most = worst.entry(n).or_insert(0.0);
+                *most = most.max(lambda);
+            }
+            self.lambdas = worst.into_iter().collect();
+            self.steps = step;
+            self.levels = Levels::Intervals(Box::new(refinement));
+            return Ok(());
+        }
+        Err(Error::TooClose { steps: MOST_STEPS })
     }
 
     /// Vertices with the simple rule of HNUSS for want of an eigen-polyhedron.
     pub fn simple(&self) -> &[Place] {
         match &self.levels {
             Levels::Uniform(..) => &[],
-            Levels::Hybrid(refinement) => &refinement.simple,
+            Levels::Intervals(refinement) => &refinement.simple,
         }
     }
 
@@ -137,7 +168,7 @@ impl<'a> Study<'a> {
     pub(crate) fn first_level(&self, points: &[[f64; 1]]) -> Result<Vec<[f64; 1]>, Error> {
         match &self.levels {
             Levels::Uniform(..) => Ok(points.to_vec()),
-            Levels::Hybrid(refinement) => Ok(refinement.apply(points)?),
+            Levels::Intervals(refinement) => Ok(refinement.apply(points)?),
         }
     }
 
@@ -150,12 +181,12 @@ impl<'a> Study<'a> {
                 let mesh = (0..level).try_fold(self.mesh.clone(), one)?;
                 Space::new(&mesh, rules, ends, *tuned)?
             }
-            Levels::Hybrid(refinement) => {
+            Levels::Intervals(refinement) => {
                 let mut refinement = refinement.clone();
                 (0..level).try_for_each(|_| refinement.refine())?;
                 let points: Vec<[f64; 3]> = self.mesh.points().iter().map(|p| [p.x, p.y, p.z]).collect();
                 let points = refinement.apply(&points)?;
-                hybrid::space(refinement.hybrid().expect("it stays one"), &points, level, ends)?
+                hybrid::space(&refinement, &points, level, ends)?
             }
         };
         space.ok_or(Error::TooClose { steps: self.steps })
@@ -176,7 +207,7 @@ impl<'a> Study<'a> {
     fn coarser(&self, level: usize, space: &Space, ends: Ends) -> Result<Vec<(Sparse, Space)>, Error> {
         let Levels::Uniform(rules, tuned) = &self.levels else {
             return Err(Error::Combination {
-                what: "multigrid in a space of HNUSS",
+                what: "multigrid in a space with knot intervals",
                 accepted: "cholesky",
             });
         };
@@ -204,7 +235,7 @@ impl<'a> Study<'a> {
     /// The options with the only solver of a space that has one.
     fn solvable(&self, options: &Options) -> Options {
         let solver = match self.levels {
-            Levels::Hybrid(_) => options.solver.or(Some(Solver::Cholesky)),
+            Levels::Intervals(_) => options.solver.or(Some(Solver::Cholesky)),
             Levels::Uniform(..) => options.solver,
         };
         Options { solver, ..*options }
@@ -280,22 +311,37 @@ impl<'a> Study<'a> {
         &self.mesh
     }
 
-    /// About how many bytes a level takes: the matrix with those of its coarser levels and what their product
-    /// passes through, or the factor, which has some 22 n log2 n entries (empirical, meshes of 10^4 to 10^6
-    /// unknowns).
-    pub fn bytes(&self, level: usize, solver: Option<Solver>) -> f64 {
+    /// About how many bytes a level takes, with as many eigenvalues, or for the solution of a problem. Without
+    /// the factor some 2300 a face at 10^6 faces: mesh, space, matrix, a copy of it without held unknowns, or
+    /// the coarser ones. Factors have 20 n log2 n entries and more, and take 30 (meshes of 7*10^4 to 10^6 unknowns). Tables
+    /// have a jet for each function of a face at an extraordinary vertex, at each point of its annuli.
+    pub fn bytes(&self, level: usize, options: &Options, eigenvalues: Option<usize>) -> f64 {
         let first = match &self.levels {
             Levels::Uniform(..) => self.mesh.face_count(),
-            Levels::Hybrid(refinement) => refinement.net().topology().face_count(),
+            Levels::Intervals(refinement) => refinement.net().topology().face_count(),
         };
         let faces = first as f64 * 4.0_f64.powi(level as i32);
-        let factored = solver.unwrap_or(default_solver(faces as usize)) == Solver::Cholesky;
-        let solver = if factored {
-            8.0 * 22.0 * faces.log2().max(1.0)
-        } else {
-            2200.0
+        let solver = match (eigenvalues, &self.levels) {
+            (Some(_), _) => Solver::Cholesky,
+            (None, Levels::Intervals(_)) => Solver::Cholesky,
+            (None, Levels::Uniform(..)) => options.solver.unwrap_or(default_solver(faces as usize)),
         };
-        faces * (1500.0 + solver)
+        let factor = match solver {
+            Solver::Cholesky => 8.0 * 30.0 * faces.log2().max(1.0),
+            Solver::Multigrid => 0.0,
+        };
+        // four more matrices, and two vectors for each direction of Lanczos' basis
+        let others = eigenvalues.map_or(0.0, |count| 2400.0 + 16.0 * (3.0 * count as f64 + 100.0));
+        let table = |(valence, lambda): &(usize, f64)| {
+            let annuli = options
+                .depth
+                .map_or(-16.0 / (2.0 * lambda.log10()), |depth| depth as f64)
+                .clamp(1.0, MOST_ANNULI as f64);
+            let points = (options.gauss.pow(2) + 36) as f64 * annuli;
+            48.0 * (2 * valence + 8) as f64 * 12.0 * points
+        };
+        let tables: f64 = self.lambdas.iter().map(table).sum();
+        faces * (2300.0 + factor + others) + tables
     }
 
     /// The rates that the worst of the valences predicts, see [`predicted`]. A natural solution is not better
@@ -347,7 +393,7 @@ fn refined(mesh: &Mesh, rules: &Rules, levels: usize) -> Result<Mesh, Error> {
 /// Moves a surface to the nearest one, in the mean square, to its own projection on the unit sphere.
 fn project_to_sphere(space: &mut Space, options: &Options) -> Result<(), Error> {
     let tables = tables(space, options, false)?;
-    let (mass, _) = assemble(space, &tables, &[Form::Mass], None)?;
+    let (mut mass, _) = assemble(space, &tables, &[Form::Mass], None)?;
     for face in 0..space.cells.len() {
         let table = &tables[&space.cells[face].kind];
         let (_, positions) = points_of(space, table, face);
@@ -357,7 +403,7 @@ fn project_to_sphere(space: &mut Space, options: &Options) -> Result<(), Error> 
             return Err(Error::NotStar { face });
         }
     }
-    let factor = mass[0].factor()?;
+    let factor = mass.swap_remove(0).factor()?;
     let axes = [0, 1, 2].map(|axis| {
         let length = |x: [f64; 3]| x.iter().map(|c| c * c).sum::<f64>().sqrt();
         loads(space, &tables, &|at| at.x[axis] / length(at.x)).map(|load| factor.solve(&load))

@@ -122,8 +122,11 @@ pub(crate) fn element(of: &Element, rule: &Rule, depth: usize, scaled: bool) -> 
         jets: Vec::new(),
     };
     for piece in &pieces {
-        // areas shrink by 1/4 at each level
-        let factor = if scaled && piece.is_last { 4.0 / 3.0 } else { 1.0 };
+        let factor = if scaled && piece.is_last {
+            1.0 / (1.0 - of.left())
+        } else {
+            1.0
+        };
         for &([s, t], weight) in rule {
             table.weights.push(weight * factor);
             let jets = with_intervals(piece.intervals, s, t);

@@ -1,7 +1,8 @@
 //! Schemes and meshes.
 
 use eigenring_scheme::{Definition, Spec};
-use eigenring_surface::{Mesh, Point3, Rules};
+use eigenring_surface::features::edge;
+use eigenring_surface::{Mesh, Point3, Rules, Topology, shapes};
 
 pub fn rules(name: &str) -> Rules {
     Rules::new(Definition::Family(name.parse::<Spec>().expect("a scheme")))
@@ -31,4 +32,19 @@ pub fn squares(n: u32, corners: &[[f64; 2]]) -> Mesh {
         faces.extend(cells.flat_map(|(i, j)| [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]));
     }
     Mesh::of_quads(points, faces)
+}
+
+/// A fan whose spokes have these intervals, one after another, at the centre; the outer edges have 1.
+pub fn uneven(n: usize, intervals: &[f64]) -> Mesh {
+    let mut mesh = shapes::fan(n);
+    let topology = Topology::new(&mesh).expect("a surface");
+    let centre = (0..topology.vertex_count() as u32)
+        .find(|&v| topology.fan(v).last.is_none() && topology.fan(v).spokes.len() == n && n != 4)
+        .expect("a centre");
+    let spokes = topology.fan(centre).spokes;
+    let knots = spokes.iter().zip(intervals.iter().cycle());
+    mesh.features.knots = knots
+        .map(|(&spoke, &d)| (edge(centre, topology.head(spoke)), d))
+        .collect();
+    mesh
 }

@@ -1,29 +1,13 @@
 //! The spaces of HNUSS: linear functions at equal and unequal intervals, rates, what is refused.
 
-use crate::common::warped;
+use crate::common::{uneven, warped};
 use eigenring_iga::{Dirichlet, Domain, Ends, Error, Norms, Options, Problem, Solver, Study, solution};
-use eigenring_nonuniform::{FirstLevel, Outside};
-use eigenring_surface::features::edge;
-use eigenring_surface::{Mesh, Topology, shapes};
-
-/// A fan whose spokes have these intervals, one after another, at the centre; the outer edges have 1.
-fn uneven(n: usize, intervals: &[f64]) -> Mesh {
-    let mut mesh = shapes::fan(n);
-    let topology = Topology::new(&mesh).expect("a surface");
-    let centre = (0..topology.vertex_count() as u32)
-        .find(|&v| topology.fan(v).last.is_none() && topology.fan(v).spokes.len() == n && n != 4)
-        .expect("a centre");
-    let spokes = topology.fan(centre).spokes;
-    let knots = spokes.iter().zip(intervals.iter().cycle());
-    mesh.features.knots = knots
-        .map(|(&spoke, &d)| (edge(centre, topology.head(spoke)), d))
-        .collect();
-    mesh
-}
+use eigenring_nonuniform::{FirstLevel, Outside, Scheme};
+use eigenring_surface::{Mesh, shapes};
 
 fn errors(mesh: &Mesh, name: &str, problem: Problem, levels: std::ops::Range<usize>, options: &Options) -> Vec<Norms> {
     let u = solution::named(name).expect("a solution");
-    let study = Study::hybrid(mesh, FirstLevel::Improved, Outside::Error, Domain::Planar).expect("a study");
+    let study = Study::with_intervals(mesh, Scheme::Hnuss(FirstLevel::Improved), Outside::Error, Domain::Planar).expect("a study");
     levels
         .map(|level| study.level(level, problem, &u, options).expect("an outcome").error)
         .collect()
@@ -98,7 +82,7 @@ fn rates_are_those_of_one_half() {
 #[test]
 fn closed_surfaces_and_projections_have_spaces_too() {
     let u = solution::named("mix").expect("a solution");
-    let cube = Study::hybrid(&shapes::cube(), FirstLevel::Improved, Outside::Error, Domain::Closed).expect("a study");
+    let cube = Study::with_intervals(&shapes::cube(), Scheme::Hnuss(FirstLevel::Improved), Outside::Error, Domain::Closed).expect("a study");
     let error = |level| {
         let outcome = cube.level(level, Problem::LaplaceBeltrami, &u, &Options::default());
         outcome.expect("an outcome").error
@@ -117,7 +101,7 @@ fn closed_surfaces_and_projections_have_spaces_too() {
 fn what_hnuss_has_no_space_for_is_refused() {
     let u = solution::named("lin").expect("a solution");
     let mesh = uneven(5, SETS[1]);
-    let study = Study::hybrid(&mesh, FirstLevel::Improved, Outside::Error, Domain::Planar).expect("a study");
+    let study = Study::with_intervals(&mesh, Scheme::Hnuss(FirstLevel::Improved), Outside::Error, Domain::Planar).expect("a study");
     let plate = study.level(0, Problem::Biharmonic, &u, &Options::default());
     assert!(matches!(plate, Err(Error::Combination { .. })));
     let multigrid = Options {
@@ -128,11 +112,11 @@ fn what_hnuss_has_no_space_for_is_refused() {
     assert!(matches!(cycle, Err(Error::Combination { .. })));
     let mut flat = mesh.clone();
     flat.features.knots.values_mut().for_each(|d| *d = 20.0 * (*d - 0.95));
-    let far = Study::hybrid(&flat, FirstLevel::Improved, Outside::Error, Domain::Planar);
+    let far = Study::with_intervals(&flat, Scheme::Hnuss(FirstLevel::Improved), Outside::Error, Domain::Planar);
     assert!(
         matches!(far, Err(Error::Intervals(_))),
         "outside the domain of eigen-polyhedra"
     );
-    let closed = Study::hybrid(&mesh, FirstLevel::Improved, Outside::Error, Domain::Closed);
+    let closed = Study::with_intervals(&mesh, Scheme::Hnuss(FirstLevel::Improved), Outside::Error, Domain::Closed);
     assert!(matches!(closed, Err(Error::Open)));
 }

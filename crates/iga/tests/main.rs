@@ -3,6 +3,7 @@
 mod analysis;
 mod common;
 mod hnuss;
+mod intervals;
 mod multigrid;
 mod problems;
 mod spectra;

@@ -34,4 +34,5 @@ pub use refine::{NAMES, Refined, Refinement, Scheme, refined};
 pub use spokes::Spokes;
 pub use star::Star;
 pub use surface::elements::{Element, Piece, grid};
+pub use surface::vertices::VertexElements;
 pub use surface::{Sample, Surface};

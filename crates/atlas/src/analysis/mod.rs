@@ -15,7 +15,7 @@ use crate::table::Table;
 use eigenring_iga::{
     Dirichlet, Domain, Ends, Norms, Options, Outcome, Problem, Solver, Study, accepts, predicted, solution,
 };
-use eigenring_nonuniform::{FirstLevel, Outside, Scheme};
+use eigenring_nonuniform::{Outside, Scheme};
 use eigenring_scheme::user::Reading;
 use eigenring_surface::{Mesh, Rules};
 use serde_json::{Map, Value, json};
@@ -74,24 +74,18 @@ impl Task {
 pub enum Basis {
     /// A scheme whose regular part is bicubic.
     Rules(Box<Rules>),
-    /// HNUSS, with knot intervals.
-    Hnuss(FirstLevel, Outside),
+    /// A scheme with knot intervals.
+    Intervals(Scheme, Outside),
 }
 
 impl Basis {
     /// That of a scheme on a mesh.
     ///
     /// # Errors
-    /// Those of [`meshes::rules`]; other schemes with knot intervals, which are evaluated nowhere.
+    /// Those of [`meshes::rules`].
     pub fn new(scheme: &OnMesh, mesh: &Mesh, outside: Outside, tuner: &Tuner<'_>) -> Result<Self, Error> {
         match scheme.name {
-            SchemeName::NonUniform(Scheme::Hnuss(rule)) => Ok(Basis::Hnuss(rule, outside)),
-            SchemeName::NonUniform(other) => Err(Error::Usage {
-                message: format!(
-                    "{other} has no finite elements: its surface is no union of patches near extraordinary vertices"
-                ),
-                accepted: "hnuss[:simple|printed] and bicubic schemes with one-ring rules".to_owned(),
-            }),
+            SchemeName::NonUniform(scheme) => Ok(Basis::Intervals(scheme, outside)),
             _ => Ok(Basis::Rules(Box::new(meshes::rules(scheme, mesh, &[], tuner)?))),
         }
     }
@@ -100,7 +94,7 @@ impl Basis {
     pub fn name(&self) -> String {
         match self {
             Basis::Rules(rules) => rules.definition().name(),
-            Basis::Hnuss(rule, _) => Scheme::Hnuss(*rule).to_string(),
+            Basis::Intervals(scheme, _) => scheme.to_string(),
         }
     }
 
@@ -111,7 +105,7 @@ impl Basis {
     pub fn study(&self, mesh: &Mesh, domain: Domain) -> Result<Study<'_>, eigenring_iga::Error> {
         match self {
             Basis::Rules(rules) => Study::new(mesh, rules, domain),
-            Basis::Hnuss(rule, outside) => Study::hybrid(mesh, *rule, *outside, domain),
+            Basis::Intervals(scheme, outside) => Study::with_intervals(mesh, *scheme, *outside, domain),
         }
     }
 }
@@ -177,10 +171,16 @@ fn prepared<'a>(
     }
     let study = basis.study(mesh, domain).map_err(|error| refused(error, path))?;
     if study.steps > 0 {
-        progress.note(&format!(
-            "{} Catmull-Clark steps come first: they separate extraordinary vertices",
-            study.steps
-        ));
+        progress.note(&match basis {
+            Basis::Rules(_) => format!(
+                "{} Catmull-Clark steps come first: they separate extraordinary vertices",
+                study.steps
+            ),
+            Basis::Intervals(scheme, _) => format!(
+                "{} levels of {scheme} come first: after them rules at extraordinary vertices do not change",
+                study.steps
+            ),
+        });
     }
     if !study.simple().is_empty() {
         let list: Vec<String> = study.simple().iter().map(ToString::to_string).collect();
@@ -225,7 +225,7 @@ pub fn study<E: From<Error>>(
         .into());
     };
     let study = prepared(path, mesh, basis, request.domain, request.levels, progress)?;
-    fits(study.bytes(request.levels - 1, request.options.solver))?;
+    fits(study.bytes(request.levels - 1, &request.options, None))?;
     let level = |level: usize| study.level(level, request.task.problem(), &u, &request.options);
     let outcomes = (0..request.levels).map(level).collect::<Result<_, _>>();
     Ok(Answer {

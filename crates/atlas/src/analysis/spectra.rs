@@ -4,7 +4,7 @@ use super::{Basis, ends_name, prepared, refused};
 use crate::error::Error;
 use crate::progress::Progress;
 use crate::table::Table;
-use eigenring_iga::{Domain, Membrane, Options, Solver, Spectrum};
+use eigenring_iga::{Domain, Membrane, Options, Spectrum};
 use eigenring_surface::Mesh;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -46,7 +46,7 @@ pub fn spectra<E: From<Error>>(
     progress: &dyn Progress,
 ) -> Result<Spectra, E> {
     let study = prepared(path, mesh, basis, request.domain, request.levels, progress)?;
-    fits(study.bytes(request.levels - 1, Some(Solver::Cholesky)))?;
+    fits(study.bytes(request.levels - 1, &request.options, Some(request.count)))?;
     let level = |level: usize| study.spectrum(level, request.membrane, request.count, &request.options);
     let spectra = (0..request.levels).map(level).collect::<Result<_, _>>();
     Ok(Spectra {

@@ -25,7 +25,7 @@ use std::process::ExitCode;
 /// Solve on the basis functions of a subdivision scheme, and measure the errors.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  eigenring make fan -N 6 -o fan6.obj\n  eigenring iga poisson fan6.obj --scheme lambda:lambda=0.39 --solution exp --levels 4\n  eigenring iga patch-test fan6.obj --scheme catmull-clark --tail scaled\n  eigenring iga spectrum cube.obj --scheme catmull-clark --bc closed --sphere --count 9\n  eigenring iga patch-test fan6.obj --scheme hnuss --depth 24\n  eigenring iga rates --scheme catmull-clark -N 3..12"
+    after_help = "Examples:\n  eigenring make fan -N 6 -o fan6.obj\n  eigenring iga poisson fan6.obj --scheme lambda:lambda=0.39 --solution exp --levels 4\n  eigenring iga patch-test fan6.obj --scheme catmull-clark --tail scaled\n  eigenring iga spectrum cube.obj --scheme catmull-clark --bc closed --sphere --count 9\n  eigenring iga patch-test fan6.obj --scheme hnuss --depth 24\n  eigenring iga poisson fan6.obj --scheme nurss --levels 3\n  eigenring iga rates --scheme catmull-clark -N 3..12"
 )]
 pub struct Arguments {
     #[command(subcommand)]
@@ -53,7 +53,7 @@ enum Task {
 /// Which studies are run.
 #[derive(Args, Debug)]
 struct Studies {
-    /// convergence, annuli, boundary, plates, spectra, lambda, pictures
+    /// convergence, annuli, boundary, plates, spectra, lambda, intervals, pictures
     #[arg(value_name = "NAME", required = true)]
     names: Vec<String>,
     /// The number of levels, by default each study's own

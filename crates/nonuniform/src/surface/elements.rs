@@ -6,6 +6,7 @@
 //! left at the corner has `4^-depth` of the area.
 
 use super::corner::Corner;
+use super::vertices::VertexFan;
 use super::{children, patch};
 use crate::{Error, HybridNet};
 use eigenring_spectral::Matrix;
@@ -31,6 +32,8 @@ pub struct Element {
     pieces: Vec<Piece>,
     /// The neighbourhoods of corners on n-gons with their points as combinations of the element's.
     corners: Vec<(Corner, Matrix<f64>)>,
+    /// What is around a corner that is an extraordinary vertex.
+    vertex: Option<Box<VertexFan>>,
     halvings: usize,
 }
 
@@ -49,6 +52,45 @@ fn identity(n: usize) -> Matrix<f64> {
 }
 
 impl Element {
+    /// One piece over the 16 points around it.
+    pub(super) fn of_piece(intervals: [[f64; 5]; 2]) -> Self {
+        let piece = Piece {
+            intervals,
+            values: identity(16),
+            derivatives: identity(16),
+            is_last: false,
+        };
+        Element::of_pieces(16, vec![piece])
+    }
+
+    pub(super) fn of_pieces(columns: usize, pieces: Vec<Piece>) -> Self {
+        Element {
+            columns,
+            pieces,
+            corners: Vec::new(),
+            vertex: None,
+            halvings: 0,
+        }
+    }
+
+    pub(super) fn at_vertex(fan: VertexFan) -> Self {
+        Element {
+            vertex: Some(Box::new(fan.clone())),
+            ..Element::of_pieces(fan.columns(), Vec::new())
+        }
+    }
+
+    /// The part of the area at a corner that a level leaves: 1/4 at n-gons, the product of both subdominant
+    /// eigenvalues at vertices.
+    pub fn left(&self) -> f64 {
+        self.vertex.as_ref().map_or(0.25, |fan| fan.area())
+    }
+
+    /// The depth at which what is left of the area is rounding.
+    pub fn depth(&self) -> usize {
+        (1e-16_f64.ln() / self.left().ln()).ceil() as usize
+    }
+
     /// How many points it has.
     pub fn columns(&self) -> usize {
         self.columns
@@ -56,7 +98,7 @@ impl Element {
 
     /// Whether no corner is on an n-gon.
     pub fn is_regular(&self) -> bool {
-        self.corners.is_empty()
+        self.corners.is_empty() && self.vertex.is_none()
     }
 
     /// The pieces down to a depth in halvings, at least one at each n-gon, and the limit at the n-gon as a
@@ -69,6 +111,11 @@ impl Element {
             pieces.extend(own);
             centre = Some(limit);
         }
+        if let Some(fan) = &self.vertex {
+            let (own, limit) = fan.pieces(depth.max(1));
+            pieces.extend(own);
+            centre = Some(limit);
+        }
         (pieces, centre)
     }
 
@@ -77,6 +124,10 @@ impl Element {
     /// others.
     pub fn key(&self) -> Option<Vec<u64>> {
         let ratios = |of: &[f64], to: f64| -> Vec<u64> { of.iter().map(|d| (d / to).to_bits()).collect() };
+        if let Some(fan) = &self.vertex {
+            let d = fan.intervals();
+            return Some([ratios(d, d[0]), vec![u64::MAX - 1]].concat());
+        }
         match (&self.pieces[..], &self.corners[..]) {
             ([piece], []) => {
                 let [u, v] = piece.intervals;
@@ -223,18 +274,7 @@ impl HybridNet {
         let start = topology.face_halves(face).start;
         let Some(half) = self.ngon_beside(face) else {
             let points = grid(topology, start).ok_or_else(|| self.too_narrow(face))?;
-            let piece = Piece {
-                intervals: patch::intervals(self.net(), start),
-                values: identity(16),
-                derivatives: identity(16),
-                is_last: false,
-            };
-            let element = Element {
-                columns: 16,
-                pieces: vec![piece],
-                corners: Vec::new(),
-                halvings: 0,
-            };
+            let element = Element::of_piece(patch::intervals(self.net(), start));
             return Ok((points.to_vec(), element));
         };
         if halvings >= 2 {
@@ -244,6 +284,7 @@ impl HybridNet {
                 columns: points.len(),
                 pieces: Vec::new(),
                 corners: vec![(corner, identity(points.len()))],
+                vertex: None,
                 halvings: 0,
             };
             return Ok((points, element));
@@ -275,6 +316,7 @@ impl HybridNet {
             columns: 0,
             pieces: Vec::new(),
             corners: Vec::new(),
+            vertex: None,
             halvings: 2 - halvings,
         };
         part.collect(0, face, &mut element)?;
@@ -284,7 +326,7 @@ impl HybridNet {
 
 impl Element {
     /// Without the points that nothing reads; the numbers of the others.
-    fn restricted(self, originals: &[u32]) -> (Vec<u32>, Self) {
+    pub(super) fn restricted(self, originals: &[u32]) -> (Vec<u32>, Self) {
         let all = self.pieces.iter().map(|piece| &piece.values);
         let all: Vec<&Matrix<f64>> = all.chain(self.corners.iter().map(|(_, rows)| rows)).collect();
         let read = |column: &usize| all.iter().any(|m| (0..m.rows()).any(|row| m[(row, *column)] != 0.0));
@@ -303,6 +345,7 @@ impl Element {
                 .iter()
                 .map(|(corner, rows)| (corner.clone(), part(rows)))
                 .collect(),
+            vertex: None,
             halvings: self.halvings,
         };
         (kept.iter().map(|&k| originals[k]).collect(), element)

@@ -12,6 +12,7 @@
 mod corner;
 pub mod elements;
 mod patch;
+pub mod vertices;
 
 use crate::{Error, FirstLevel, HybridNet, Outside, Place, Refinement, Scheme};
 use corner::Corner;

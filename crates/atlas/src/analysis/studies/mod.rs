@@ -7,6 +7,7 @@
 mod chart;
 mod eigenvalues;
 mod fixed;
+mod intervals;
 mod pictures;
 
 use super::{Basis, ends_name};
@@ -21,6 +22,7 @@ use eigenring_nonuniform::Outside;
 use eigenring_surface::{Mesh, shapes};
 use eigenvalues::spectra;
 use fixed::against_lambda;
+use intervals::{nurss, polyhedra};
 use pictures::{functions, solutions};
 
 /// A registered study.
@@ -80,6 +82,12 @@ pub const STUDIES: &[StudyEntry] = &[
         title: "errors against lambda at fixed levels, tuned stencils, N = 3 to 12",
         levels: 5,
         parts: &[against_lambda],
+    },
+    StudyEntry {
+        name: "intervals",
+        title: "NURSS and eigen-polyhedra at unequal knot intervals, beside HNUSS and Catmull-Clark",
+        levels: 4,
+        parts: &[nurss, polyhedra],
     },
     StudyEntry {
         name: "pictures",
