@@ -186,6 +186,9 @@ fn local(
         if let Some(load) = load {
             for (at, jets) in with_jets() {
                 let f = load(at) * at.measure;
+                if !f.is_finite() {
+                    return Err(Error::Solution { at: at.x });
+                }
                 right.iter_mut().zip(jets).for_each(|(sum, jet)| *sum += f * jet[0]);
             }
         }

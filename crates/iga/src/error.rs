@@ -120,6 +120,12 @@ pub enum Error {
         /// Its value in the parameters of the patch.
         value: f64,
     },
+    /// A solution that overflows.
+    #[error("the solution or its derivatives are no finite numbers near {at:?}: accepted are meshes where they are")]
+    Solution {
+        /// The point, or where the domain begins if squares overflow.
+        at: [f64; 3],
+    },
     /// A subdominant eigenvalue that makes no annuli that shrink, or too slowly.
     #[error(
         "lambda is {lambda} at valence {valence}: accepted is above 0 and at most {most:.3}, with which {annuli} annuli suffice"

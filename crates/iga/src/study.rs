@@ -44,7 +44,9 @@ pub struct Study<'a> {
     /// Steps that separated extraordinary vertices from each other and from the boundary: of Catmull-Clark, of
     /// NURSS and of eigen-polyhedra their own, one at least.
     pub steps: usize,
-    /// The subdominant eigenvalues of the valences in the mesh other than 4.
+    /// Whether a vertex has two different subdominant eigenvalues, so that annuli become flat.
+    flattened: bool,
+    /// The subdominant eigenvalues of the valences in the mesh other than 4, the largest of each.
     pub lambdas: Vec<(usize, f64)>,
 }
 
@@ -52,6 +54,8 @@ pub struct Study<'a> {
 const MOST_STEPS: usize = 3;
 /// Eigenvalues of one level.
 const MOST_EIGENVALUES: usize = 200;
+/// The difference of two eigenvalues that are not the same up to rounding.
+const FLATTENED: f64 = 1e-9;
 /// Projections onto the sphere.
 const FITS: usize = 2;
 
@@ -86,6 +90,7 @@ impl<'a> Study<'a> {
                     mesh,
                     domain,
                     steps: step,
+                    flattened: false,
                     lambdas,
                 });
             }
@@ -116,6 +121,7 @@ impl<'a> Study<'a> {
             mesh,
             domain,
             steps: 0,
+            flattened: false,
         };
         if let Some(net) = refinement.hybrid() {
             let sizes: BTreeSet<usize> = net
@@ -144,9 +150,10 @@ impl<'a> Study<'a> {
                 continue;
             }
             let mut worst: BTreeMap<usize, f64> = BTreeMap::new();
-            for (n, lambda) in VertexElements::new(refinement.net(), refinement.scheme()).lambdas()? {
+            for (n, [lambda, other]) in VertexElements::new(refinement.net(), refinement.scheme()).lambdas()? {
                 let most = worst.entry(n).or_insert(0.0);
                 *most = most.max(lambda);
+                self.flattened |= lambda - other > FLATTENED;
             }
             self.lambdas = worst.into_iter().collect();
             self.steps = step;
@@ -346,8 +353,12 @@ impl<'a> Study<'a> {
 
     /// The rates that the worst of the valences predicts, see [`predicted`]. A natural solution is not better
     /// than 5/2, 3/2, 2, 1/2: its second derivatives across the boundary vanish there, and those of u do not.
-    /// Of plates H2 has its rate, L2 at most twice that; of the others nothing is predicted.
+    /// Of plates H2 has its rate, L2 at most twice that; of the others nothing is predicted, nor where a
+    /// vertex has two different subdominant eigenvalues.
     pub fn predicted(&self, problem: Problem, ends: Ends) -> [Option<f64>; 4] {
+        if self.flattened {
+            return [None; 4];
+        }
         let lambdas = self.lambdas.iter().map(|(_, lambda)| *lambda);
         let rates = predicted(lambdas.fold(0.0, f64::max));
         if problem == Problem::Biharmonic {

@@ -172,6 +172,14 @@ fn what_has_no_space_is_refused() {
     assert!(Study::new(&shapes::fan(4), &at_four, Domain::Planar).is_err());
     // the levels of u0 = 1 are one
     assert!(Study::new(&shapes::fan(5), &rules("tension:order=4"), Domain::Planar).is_ok());
+    let mut far = shapes::fan(5);
+    far.points_mut().iter_mut().for_each(|p| p.x += 1e4);
+    let u = solution::named("exp").expect("a solution");
+    let study = Study::new(&far, &cc, Domain::Planar).expect("a study");
+    let outcome = study.level(0, Problem::Poisson, &u, &options(Ends::Open, 4));
+    assert!(matches!(outcome, Err(Error::Solution { .. })), "{outcome:?}");
+    let many = Study::new(&shapes::fan(129), &cc, Domain::Planar);
+    assert!(matches!(many, Err(Error::Range { name: "valence", .. })));
     let mut folded = shapes::fan(5);
     folded.points_mut().iter_mut().for_each(|p| p.x = -p.x);
     let study = Study::new(&folded, &cc, Domain::Planar).expect("a study");

@@ -84,6 +84,23 @@ fn few_annuli_fail_the_patch_test() {
     assert!(h1(true) < 0.1 * h1(false), "{:e} for {:e}", h1(true), h1(false));
 }
 
+/// Eigen-polyhedra have one subdominant eigenvalue, that of Catmull-Clark, and NURSS mostly two.
+#[test]
+fn rates_are_predicted_where_annuli_keep_their_shape() {
+    let mesh = uneven(6, &[1.5, 1.0]);
+    let study = |mesh: &Mesh, scheme| {
+        let study = Study::with_intervals(mesh, scheme, Outside::Error, Domain::Planar).expect("a study");
+        study.predicted(Problem::Poisson, Ends::Open)
+    };
+    let [l2, ..] = study(&mesh, Scheme::EigenPolyhedron);
+    let l2 = l2.expect("predicted");
+    assert!((l2 - 2.36).abs() < 1e-3, "{l2}");
+    let e = errors(&mesh, Scheme::EigenPolyhedron, "exp", 1..3, &Options::default());
+    let rate = (e[0].l2 / e[1].l2).log2();
+    assert!((rate - l2).abs() < 0.1, "{rate} for {l2}");
+    assert_eq!(study(&uneven(5, &[3.0, 1.0]), Scheme::Nurss), [None; 4]);
+}
+
 #[test]
 fn what_has_no_elements_with_intervals_is_refused() {
     let mut mesh = uneven(5, &[3.0, 1.0]);

@@ -25,9 +25,8 @@ const LIMIT: usize = 400;
 #[derive(Clone, Debug)]
 pub(super) struct VertexFan {
     intervals: Vec<f64>,
-    /// The product of both subdominant eigenvalues, by which areas shrink, and the larger one.
-    area: f64,
-    lambda: f64,
+    /// The moduli of both subdominant eigenvalues.
+    lambdas: [f64; 2],
     s: Matrix<f64>,
     deflated: Matrix<f64>,
     limit: Vec<f64>,
@@ -120,8 +119,7 @@ impl VertexFan {
             limit = next.into_iter().map(|weight| weight / sum).collect();
         }
         Ok(VertexFan {
-            area: moduli[1] * moduli[2],
-            lambda: moduli[1],
+            lambdas: [moduli[1], moduli[2]],
             deflated: Matrix::from_fn(s.rows(), s.columns(), |i, j| s[(i, j)] - limit[j]),
             s,
             limit,
@@ -189,11 +187,7 @@ impl VertexFan {
 
     /// What is left of the area by an annulus.
     pub fn area(&self) -> f64 {
-        self.area
-    }
-
-    pub fn lambda(&self) -> f64 {
-        self.lambda
+        self.lambdas[0] * self.lambdas[1]
     }
 }
 
@@ -308,15 +302,16 @@ impl<'a> VertexElements<'a> {
         Ok(Some(Element::of_pieces(points.len(), pieces.to_vec()).restricted(&points)))
     }
 
-    /// The larger subdominant eigenvalue at each irregular vertex, with its valence.
+    /// The moduli of both subdominant eigenvalues at each irregular vertex, the larger one first, with its
+    /// valence.
     ///
     /// # Errors
     /// Those of the scheme's matrices.
-    pub fn lambdas(&self) -> Result<Vec<(usize, f64)>, Error> {
+    pub fn lambdas(&self) -> Result<Vec<(usize, [f64; 2])>, Error> {
         let vertices = 0..self.net.topology().vertex_count() as u32;
         let of = |v: u32| {
             let spoke = self.net.topology().fan(v).spokes[0];
-            Ok((self.net.valence(v), self.fan(spoke)?.lambda()))
+            Ok((self.net.valence(v), self.fan(spoke)?.lambdas))
         };
         vertices.filter(|&v| self.net.is_irregular(v)).map(of).collect()
     }

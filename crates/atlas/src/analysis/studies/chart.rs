@@ -44,7 +44,9 @@ pub(super) fn chart(runs: &[Run], name: &str) -> Chart {
     // rates that are nearly equal share a line
     rates.dedup_by(|a, b| (*a - *b).abs() < 0.1);
     let foot = lowest / 8.0_f64.powf(rates.last().copied().unwrap_or(0.0) * 0.35) / 10.0;
-    let x = Axis::log("$h$", (h(levels - 1) / 1.3, 1.3));
+    // labels of slopes stand behind their lines
+    let end = if levels > SLOPES + 1 { 1.3 } else { 2.6 };
+    let x = Axis::log("$h$", (h(levels - 1) / 1.3, end));
     let mut chart = Chart::new(
         x,
         Axis::log(format!("error in {}", spelled(name)), (foot / 3.0, high)).with_grid(),
