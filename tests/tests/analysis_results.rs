@@ -150,6 +150,35 @@ fn errors_against_lambda_are_those_of_the_prototype() {
     }
 }
 
+/// Eigen-polyhedra have Catmull-Clark's lambda at all intervals (Li, Finnigan and Sederberg 2016). NURSS has
+/// two eigenvalues at five spokes with the intervals 3 and 1 in turn.
+#[test]
+fn eigen_polyhedra_keep_the_rates_that_nurss_loses() {
+    let last = |file: &str, mesh: &str, scheme: &str| {
+        let of = |row: &Row| row["level"] == "3" && row["mesh"] == mesh && row["scheme"] == scheme;
+        rows(file).into_iter().find(of).unwrap()
+    };
+    for n in [3, 5, 6] {
+        let mesh = format!("fan{n} spokes 3/2 and 1");
+        let row = last("intervals-eigen-polyhedron.csv", &mesh, "eigen-polyhedron");
+        let a = -lambda("catmull-clark", f64::from(n)).log2();
+        for (norm, expected) in [("L2", 3.0 * a), ("H1", 2.0 * a), ("H2", a)] {
+            assert!((number(&row, &format!("predicted {norm}")) - expected).abs() < 1e-6, "{row:?}");
+            let found = number(&row, &format!("rate {norm}"));
+            assert!((found - expected).abs() < 0.07, "{norm}: {row:?}");
+        }
+        let hnuss = last("intervals-nurss.csv", &mesh, "hnuss");
+        assert!((number(&hnuss, "rate L2") - 3.0).abs() < 0.1, "{hnuss:?}");
+    }
+    let nurss = last("intervals-nurss.csv", "fan5 spokes 3 and 1", "nurss");
+    let a = -lambda("catmull-clark", 5.0).log2();
+    assert!(number(&nurss, "rate L2") < 3.0 * a - 0.5, "{nurss:?}");
+    assert!(
+        number(&nurss, "rate H2") < 0.1 && nurss["predicted H2"].is_empty(),
+        "{nurss:?}"
+    );
+}
+
 #[test]
 fn pictures_show_the_error_and_the_weight_of_the_centre() {
     for row in rows("solution.csv") {

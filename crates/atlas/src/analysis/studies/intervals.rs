@@ -13,7 +13,7 @@ use eigenring_surface::{Mesh, Topology, shapes};
 const VALENCES: [usize; 3] = [3, 5, 6];
 
 /// Intervals of the spokes in turn: eigen-polyhedra exist at the first.
-const SPOKES: [(&str, [f64; 2]); 2] = [("3/2, 1", [1.5, 1.0]), ("3, 1", [3.0, 1.0])];
+const SPOKES: [(&str, [f64; 2]); 2] = [("3/2 and 1", [1.5, 1.0]), ("3 and 1", [3.0, 1.0])];
 
 /// Levels before the first: rules of NURSS and of eigen-polyhedra are stationary from then on.
 const BEFORE: usize = 2;
@@ -41,7 +41,7 @@ fn study(levels: usize, spec: &'static str, title: &str, sets: usize, tuner: &Tu
     for n in VALENCES {
         let mut runs = Vec::new();
         let mut run = |mesh: &Mesh, spokes: &str, spec: &str, label: String, before: usize| -> Result<(), Error> {
-            let mesh_name = format!("fan{n}, spokes {spokes}");
+            let mesh_name = format!("fan{n} spokes {spokes}");
             let setting = Setting {
                 mesh_name: &mesh_name,
                 mesh,
