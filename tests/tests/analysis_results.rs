@@ -163,7 +163,10 @@ fn eigen_polyhedra_keep_the_rates_that_nurss_loses() {
         let row = last("intervals-eigen-polyhedron.csv", &mesh, "eigen-polyhedron");
         let a = -lambda("catmull-clark", f64::from(n)).log2();
         for (norm, expected) in [("L2", 3.0 * a), ("H1", 2.0 * a), ("H2", a)] {
-            assert!((number(&row, &format!("predicted {norm}")) - expected).abs() < 1e-6, "{row:?}");
+            assert!(
+                (number(&row, &format!("predicted {norm}")) - expected).abs() < 1e-6,
+                "{row:?}"
+            );
             let found = number(&row, &format!("rate {norm}"));
             assert!((found - expected).abs() < 0.07, "{norm}: {row:?}");
         }

@@ -70,13 +70,7 @@ fn sums<const AXES: usize, const ORDERS: usize>(jets: &[Jet], points: &[[f64; 3]
 impl Geometry {
     /// At a point where the functions have these jets. Second derivatives of the map are left out unless
     /// wanted.
-    pub fn new(
-        jets: &[Jet],
-        points: &[[f64; 3]],
-        weight: f64,
-        planar: bool,
-        second: bool,
-    ) -> Result<Self, Irregular> {
+    pub fn new(jets: &[Jet], points: &[[f64; 3]], weight: f64, planar: bool, second: bool) -> Result<Self, Irregular> {
         let mut d = [[0.0; 3]; 6];
         match (planar, second) {
             (true, false) => sums::<2, 3>(jets, points, &mut d),

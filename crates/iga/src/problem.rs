@@ -279,7 +279,10 @@ pub(crate) fn run(
         coefficients.iter_mut().for_each(|c| *c += constant);
     }
     let [error, norm] = errors(space, &measures, &coefficients, u)?;
-    if [error, norm].iter().any(|of| !(of.l2 + of.h1 + of.h2 + of.linf).is_finite()) {
+    if [error, norm]
+        .iter()
+        .any(|of| !(of.l2 + of.h1 + of.h2 + of.linf).is_finite())
+    {
         let at = space.positions.first().copied().unwrap_or_default();
         return Err(Error::Solution { at });
     }

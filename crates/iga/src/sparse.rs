@@ -66,7 +66,11 @@ impl Sparse {
     }
 
     pub fn diagonal(&self) -> Vec<f64> {
-        let of = |row: usize| self.row(row).find(|(column, _)| *column == row).map_or(0.0, |(_, value)| value);
+        let of = |row: usize| {
+            self.row(row)
+                .find(|(column, _)| *column == row)
+                .map_or(0.0, |(_, value)| value)
+        };
         (0..self.height()).map(of).collect()
     }
 

@@ -189,10 +189,16 @@ fn matrices_have_the_invariants_of_the_prototype() {
         for (name, matrix) in ["K", "M"].into_iter().zip(&matrices) {
             let diagonal = |row: usize| matrix.row(row).find(|(column, _)| *column == row).map_or(0.0, |e| e.1);
             let trace = (0..matrix.height()).map(diagonal).sum::<f64>();
-            for (key, value) in [("trace", trace), ("frobenius", dot(&matrix.values, &matrix.values).sqrt())] {
+            for (key, value) in [
+                ("trace", trace),
+                ("frobenius", dot(&matrix.values, &matrix.values).sqrt()),
+            ] {
                 let expected = case[format!("{key}_{name}")].as_f64().expect("a number");
                 let off = (value / expected - 1.0).abs();
-                assert!(off <= 1e-8, "{scheme}, {key} of {name}: {value} for {expected}, off {off:e}");
+                assert!(
+                    off <= 1e-8,
+                    "{scheme}, {key} of {name}: {value} for {expected}, off {off:e}"
+                );
             }
         }
     }

@@ -7,7 +7,13 @@ use eigenring_surface::{Mesh, shapes};
 
 fn errors(mesh: &Mesh, name: &str, problem: Problem, levels: std::ops::Range<usize>, options: &Options) -> Vec<Norms> {
     let u = solution::named(name).expect("a solution");
-    let study = Study::with_intervals(mesh, Scheme::Hnuss(FirstLevel::Improved), Outside::Error, Domain::Planar).expect("a study");
+    let study = Study::with_intervals(
+        mesh,
+        Scheme::Hnuss(FirstLevel::Improved),
+        Outside::Error,
+        Domain::Planar,
+    )
+    .expect("a study");
     levels
         .map(|level| study.level(level, problem, &u, options).expect("an outcome").error)
         .collect()
@@ -82,7 +88,13 @@ fn rates_are_those_of_one_half() {
 #[test]
 fn closed_surfaces_and_projections_have_spaces_too() {
     let u = solution::named("mix").expect("a solution");
-    let cube = Study::with_intervals(&shapes::cube(), Scheme::Hnuss(FirstLevel::Improved), Outside::Error, Domain::Closed).expect("a study");
+    let cube = Study::with_intervals(
+        &shapes::cube(),
+        Scheme::Hnuss(FirstLevel::Improved),
+        Outside::Error,
+        Domain::Closed,
+    )
+    .expect("a study");
     let error = |level| {
         let outcome = cube.level(level, Problem::LaplaceBeltrami, &u, &Options::default());
         outcome.expect("an outcome").error
@@ -101,7 +113,13 @@ fn closed_surfaces_and_projections_have_spaces_too() {
 fn what_hnuss_has_no_space_for_is_refused() {
     let u = solution::named("lin").expect("a solution");
     let mesh = uneven(5, SETS[1]);
-    let study = Study::with_intervals(&mesh, Scheme::Hnuss(FirstLevel::Improved), Outside::Error, Domain::Planar).expect("a study");
+    let study = Study::with_intervals(
+        &mesh,
+        Scheme::Hnuss(FirstLevel::Improved),
+        Outside::Error,
+        Domain::Planar,
+    )
+    .expect("a study");
     let plate = study.level(0, Problem::Biharmonic, &u, &Options::default());
     assert!(matches!(plate, Err(Error::Combination { .. })));
     let multigrid = Options {
@@ -112,11 +130,21 @@ fn what_hnuss_has_no_space_for_is_refused() {
     assert!(matches!(cycle, Err(Error::Combination { .. })));
     let mut flat = mesh.clone();
     flat.features.knots.values_mut().for_each(|d| *d = 20.0 * (*d - 0.95));
-    let far = Study::with_intervals(&flat, Scheme::Hnuss(FirstLevel::Improved), Outside::Error, Domain::Planar);
+    let far = Study::with_intervals(
+        &flat,
+        Scheme::Hnuss(FirstLevel::Improved),
+        Outside::Error,
+        Domain::Planar,
+    );
     assert!(
         matches!(far, Err(Error::Intervals(_))),
         "outside the domain of eigen-polyhedra"
     );
-    let closed = Study::with_intervals(&mesh, Scheme::Hnuss(FirstLevel::Improved), Outside::Error, Domain::Closed);
+    let closed = Study::with_intervals(
+        &mesh,
+        Scheme::Hnuss(FirstLevel::Improved),
+        Outside::Error,
+        Domain::Closed,
+    );
     assert!(matches!(closed, Err(Error::Open)));
 }

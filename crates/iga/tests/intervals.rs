@@ -9,7 +9,12 @@ use eigenring_surface::{Mesh, shapes};
 fn errors(mesh: &Mesh, scheme: Scheme, name: &str, levels: std::ops::Range<usize>, options: &Options) -> Vec<Norms> {
     let u = solution::named(name).expect("a solution");
     let study = Study::with_intervals(mesh, scheme, Outside::Error, Domain::Planar).expect("a study");
-    let error = |level| study.level(level, Problem::Poisson, &u, options).expect("an outcome").error;
+    let error = |level| {
+        study
+            .level(level, Problem::Poisson, &u, options)
+            .expect("an outcome")
+            .error
+    };
     levels.map(error).collect()
 }
 
@@ -37,7 +42,11 @@ fn equal_intervals_make_the_spaces_of_catmull_clark() {
         let found = errors(&mesh, Scheme::Nurss, "exp", 1..3, &options);
         for (found, expected) in found.iter().zip(expected) {
             let expected = expected.expect("an outcome").error;
-            for (a, b) in [(found.l2, expected.l2), (found.h1, expected.h1), (found.h2, expected.h2)] {
+            for (a, b) in [
+                (found.l2, expected.l2),
+                (found.h1, expected.h1),
+                (found.h2, expected.h2),
+            ] {
                 assert!((a / b - 1.0).abs() < 1e-7, "N = {n}: {found:?} for {expected:?}");
             }
         }
@@ -104,7 +113,10 @@ fn rates_are_predicted_where_annuli_keep_their_shape() {
 #[test]
 fn what_has_no_elements_with_intervals_is_refused() {
     let mut mesh = uneven(5, &[3.0, 1.0]);
-    mesh.features.knots.values_mut().for_each(|d| *d = if *d == 1.0 { 0.0 } else { *d });
+    mesh.features
+        .knots
+        .values_mut()
+        .for_each(|d| *d = if *d == 1.0 { 0.0 } else { *d });
     let flat = Study::with_intervals(&mesh, Scheme::Nurss, Outside::Error, Domain::Planar);
     assert!(flat.is_err(), "faces without width");
     let closed = Study::with_intervals(&shapes::fan(5), Scheme::Nurss, Outside::Error, Domain::Closed);

@@ -67,7 +67,10 @@ impl VertexFan {
         let table = step.map_err(Error::of_spokes)?.table;
         let mut moduli: Vec<f64> = Vec::new();
         for value in Block::Real(near).eigenvalues()? {
-            moduli.extend(std::iter::repeat_n(value.value.re.hypot(value.value.im), value.multiplicity));
+            moduli.extend(std::iter::repeat_n(
+                value.value.re.hypot(value.value.im),
+                value.multiplicity,
+            ));
         }
         moduli.sort_by(|a, b| b.total_cmp(a));
         let topology = net.topology();
@@ -113,7 +116,9 @@ impl VertexFan {
         for _ in 0..LIMIT {
             let mut next = vec![0.0; limit.len()];
             for (i, weight) in limit.iter().enumerate() {
-                next.iter_mut().zip(s.row(i)).for_each(|(sum, entry)| *sum += weight * entry);
+                next.iter_mut()
+                    .zip(s.row(i))
+                    .for_each(|(sum, entry)| *sum += weight * entry);
             }
             let sum: f64 = next.iter().sum();
             limit = next.into_iter().map(|weight| weight / sum).collect();
@@ -241,7 +246,11 @@ impl<'a> VertexElements<'a> {
     fn fan(&self, spoke: u32) -> Result<VertexFan, Error> {
         let topology = self.net.topology();
         let mut spokes = vec![spoke];
-        while let Some(next) = spokes.last().and_then(|&last| topology.turned(last)).filter(|&next| next != spoke) {
+        while let Some(next) = spokes
+            .last()
+            .and_then(|&last| topology.turned(last))
+            .filter(|&next| next != spoke)
+        {
             spokes.push(next);
         }
         let intervals = spokes.iter().map(|&spoke| self.net.interval(spoke)).collect();
@@ -293,13 +302,18 @@ impl<'a> VertexElements<'a> {
         let spokes = topology.fan(v).spokes;
         let spoke = spokes.iter().find(|&&spoke| topology.head(spoke) == to);
         let points = spoke.and_then(|&spoke| around(topology, spoke, spokes.len(), RINGS));
-        let (Some(&spoke), Some(points)) = (spoke, points.filter(|points| one(points) && is_stationary(self.net, &spokes))) else {
+        let (Some(&spoke), Some(points)) = (
+            spoke,
+            points.filter(|points| one(points) && is_stationary(self.net, &spokes)),
+        ) else {
             return Ok(None);
         };
         let fan = self.fan(spoke)?;
         let parts = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| (2 * at.0 + i, 2 * at.1 + j));
         let pieces = parts.map(|at| fan.piece(at, &fan.outer, &fan.outer, false));
-        Ok(Some(Element::of_pieces(points.len(), pieces.to_vec()).restricted(&points)))
+        Ok(Some(
+            Element::of_pieces(points.len(), pieces.to_vec()).restricted(&points),
+        ))
     }
 
     /// The moduli of both subdominant eigenvalues at each irregular vertex, the larger one first, with its

@@ -57,7 +57,13 @@ fn study(levels: usize, spec: &'static str, title: &str, sets: usize, tuner: &Tu
             runs.push(run);
             Ok(())
         };
-        run(&shapes::fan(n), "1", "catmull-clark", "Catmull-Clark".to_owned(), BEFORE)?;
+        run(
+            &shapes::fan(n),
+            "1",
+            "catmull-clark",
+            "Catmull-Clark".to_owned(),
+            BEFORE,
+        )?;
         for (spokes, intervals) in &SPOKES[..sets] {
             let mesh = fan(n, *intervals)?;
             run(&mesh, spokes, spec, format!("{title}, spokes {spokes}"), 0)?;
