@@ -2,8 +2,8 @@
 //!
 //! Elements are the faces with an area; strips of no width, which hybrid nets have, carry none, but their
 //! points have functions. Regular elements have knot intervals of their own, those at extraordinary faces of
-//! HNUSS and at extraordinary vertices of the others consist of pieces of many levels ([`Element`]). A second layer of ghosts, which no function of an element reads, carries the
-//! intervals that the boundary mirrors.
+//! HNUSS and at extraordinary vertices of the others consist of pieces of many levels ([`Element`]). A second
+//! layer of ghosts, which no function of an element reads, carries the intervals that the boundary mirrors.
 
 use crate::Error;
 use crate::space::{Cell, Corner, Edge, Ends, Kind, Space, extended, transforms};

@@ -41,8 +41,8 @@ pub struct Study<'a> {
     levels: Levels<'a>,
     mesh: Mesh,
     domain: Domain,
-    /// Steps that separated extraordinary vertices from each other and from the boundary: of Catmull-Clark, of
-    /// NURSS and of eigen-polyhedra their own, one at least.
+    /// Steps that separated extraordinary vertices from each other and from the boundary: of Catmull-Clark;
+    /// of NURSS and of eigen-polyhedra their own, one at least.
     pub steps: usize,
     /// Whether a vertex has two different subdominant eigenvalues, so that annuli become flat.
     flattened: bool,
@@ -318,10 +318,11 @@ impl<'a> Study<'a> {
         &self.mesh
     }
 
-    /// About how many bytes a level takes, with as many eigenvalues, or for the solution of a problem. Without
-    /// the factor some 2300 a face at 10^6 faces: mesh, space, matrix, a copy of it without held unknowns, or
-    /// the coarser ones. Factors have 20 n log2 n entries and more, and take 30 (meshes of 7*10^4 to 10^6 unknowns). Tables
-    /// have a jet for each function of a face at an extraordinary vertex, at each point of its annuli.
+    /// About how many bytes a level takes, with as many eigenvalues, or for the solution of a problem.
+    /// Without the factor some 2300 a face at 10^6 faces: mesh, space, matrix, a copy of it without held
+    /// unknowns, or the coarser ones. Factors have 20 n log2 n entries and more, and take 30 (meshes of
+    /// 7*10^4 to 10^6 unknowns). Tables have a jet for each function of a face at an extraordinary vertex, at
+    /// each point of its annuli.
     pub fn bytes(&self, level: usize, options: &Options, eigenvalues: Option<usize>) -> f64 {
         let first = match &self.levels {
             Levels::Uniform(..) => self.mesh.face_count(),
