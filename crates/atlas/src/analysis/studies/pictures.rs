@@ -156,7 +156,7 @@ pub(super) fn functions(_levels: usize, tuner: &Tuner<'_>) -> Result<Vec<Drawing
                 quads.push((corners.map(lifted), mean));
             }
             // the corners of the tile
-            let stored = (0..row * row).filter(|k| k % row % CUTS == 0 && k / row % CUTS == 0);
+            let stored = (0..row * row).filter(|k| (k % row).is_multiple_of(CUTS) && (k / row).is_multiple_of(CUTS));
             for [x, y, _, value] in stored.map(|k| &tile.points[k]) {
                 table.push(vec![spec.into(), (*x).into(), (*y).into(), (*value).into()]);
             }
