@@ -21,6 +21,37 @@ fn with(place: &Place, name: &str, to: &str, lines: &str) {
     place.write(to, text);
 }
 
+/// Two OBJ files are of one mesh, whatever the numbers of its points: as many lines of each kind, and edges
+/// with the same intervals and middles.
+fn agree(a: &str, b: &str) {
+    let kind = |text: &str, kind: &str| text.lines().filter(|line| line.starts_with(kind)).count();
+    for line in ["v ", "f ", "t knot "] {
+        assert_eq!(kind(a, line), kind(b, line), "lines {line}");
+    }
+    let edges = |text: &str| -> Vec<[f64; 4]> {
+        let numbers = |line: &str, first: usize| -> Vec<f64> {
+            let words = line.split_whitespace().skip(first);
+            words.map(|word| word.parse().unwrap()).collect()
+        };
+        let lines = |kind: &'static str| text.lines().filter(move |line| line.starts_with(kind));
+        let points: Vec<Vec<f64>> = lines("v ").map(|line| numbers(line, 1)).collect();
+        let edge = |line: &str| {
+            let knot = numbers(line, 3);
+            let [from, to] = [0, 1].map(|end| &points[knot[end] as usize]);
+            let middle = |k: usize| (from[k] + to[k]) / 2.0;
+            [middle(0), middle(1), middle(2), knot[2]]
+        };
+        lines("t knot ").map(edge).collect()
+    };
+    let (a, b) = (edges(a), edges(b));
+    for (these, those) in [(&a, &b), (&b, &a)] {
+        for edge in these {
+            let gap = |other: &[f64; 4]| edge.iter().zip(other).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+            assert!(those.iter().any(|other| gap(other) < 1e-14), "{edge:?}");
+        }
+    }
+}
+
 #[test]
 fn intervals_are_read_and_written_again() {
     let place = place();
@@ -46,7 +77,11 @@ fn intervals_are_read_and_written_again() {
         place.ok(&[&from_csv[..], &["--levels", "1", "-o", "b.obj"]].concat());
         // what is written is what goes on
         place.ok(&["subdivide", "b.obj", "--scheme", scheme, "--levels", "1", "-o", "c.obj"]);
-        assert_eq!(place.read("a.obj"), place.read("c.obj"), "{scheme}");
+        let (at_once, again) = (place.read("a.obj"), place.read("c.obj"));
+        match scheme {
+            "hnuss" => agree(&at_once, &again),
+            _ => assert_eq!(at_once, again, "{scheme}"),
+        }
         assert!(
             place.read("b.obj").contains("t knot 2/1/0 0 9 1.0\n"),
             "{}",
@@ -94,11 +129,7 @@ fn intervals_are_read_and_written_again() {
     for (first, rest) in [("0", "3"), ("1", "2"), ("2", "1")] {
         subdivide("uneven.obj", first, "first.obj");
         subdivide("first.obj", rest, "again.obj");
-        assert_eq!(
-            place.read("at-once.obj"),
-            place.read("again.obj"),
-            "{first} and {rest} levels"
-        );
+        agree(&place.read("at-once.obj"), &place.read("again.obj"));
     }
     place.write("p.csv", "face,sub,s,t\n0,0,0.25,0.5\n");
     let at = |file: &str| {

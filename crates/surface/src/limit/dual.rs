@@ -186,7 +186,7 @@ impl Cells<'_> {
 pub(crate) fn step(local: &Local, rules: &Rules, kernel: &Kernel, level: usize) -> Result<Step, Error> {
     let topology = &local.topology;
     let Some((net, _)) = &local.net else {
-        return Err(super::centre::missing());
+        return Err(super::quarter::missing());
     };
     let u = kernel.tension(level);
     let fine = quads(&local.mesh, topology);

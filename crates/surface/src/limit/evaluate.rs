@@ -1,10 +1,11 @@
 //! Evaluation of one face: its refined parts, kept while points are asked for.
 
-pub use super::centre::Undefined;
-use super::centre::{Centre, Context, applied, quartered};
+use super::centre::Centre;
 use super::ladder::Ladder;
 use super::numbers::ByNumber;
+pub use super::pair::Undefined;
 use super::patch::{Jet3, Lanes, OnCrease, Patch, vector};
+use super::quarter::{Context, applied, quartered};
 use super::structure::{Part, Structure, What};
 use super::{Place, Surface};
 use crate::Error;
@@ -458,7 +459,7 @@ fn kind_of_centre(context: Context<'_>, centre: &Centre, ladder: &mut Ladder) ->
     if let Err(why) = ladder.tangents {
         return Ok(Kind::Undefined(why));
     }
-    let heights: Vec<f64> = ladder.points(centre, centre.leading()).iter().map(|p| p[2]).collect();
+    let heights: Vec<f64> = ladder.points(centre, centre.leading())?.iter().map(|p| p[2]).collect();
     let Some(mu) = centre.second_modulus(&heights) else {
         return Ok(Kind::Flat);
     };

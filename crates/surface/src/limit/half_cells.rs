@@ -5,10 +5,11 @@
 //! the centre. R rings of n faces hold `n (R+1)^2` points of quads and `2 (R+1)` of rims.
 
 use super::DualNet;
-use super::centre::{composed, missing};
+use super::centre::composed;
 use super::dual;
 use super::kernel::Kernel;
 use super::local::Local;
+use super::quarter::missing;
 use crate::features::{INFINITE, edge};
 use crate::refine::Row;
 use crate::rules::Rules;

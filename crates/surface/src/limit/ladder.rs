@@ -1,10 +1,11 @@
 //! The control points of a face beside a centre, split into limit, tangents and rest, level by level.
 
-use super::centre::{Centre, Context, Undefined, missing};
+use super::centre::Centre;
 use super::numbers::ByNumber;
+use super::pair::Undefined;
 use super::patch::{Jet3, OnCrease, Patch};
+use super::quarter::{Context, missing};
 use crate::Error;
-use crate::refine::Row;
 use nalgebra::{Point3, Vector3};
 
 /// The control points of a face beside a centre, level by level.
@@ -109,15 +110,8 @@ impl Ladder {
     }
 
     /// The rest of the level after m.
-    fn advanced(&self, centre: &Centre, m: usize, rest: &[[f64; 3]]) -> Vec<[f64; 3]> {
-        let row = |row: &Row| {
-            let mut sum = [0.0; 3];
-            for &(at, w) in row {
-                (0..3).for_each(|k| sum[k] += w * rest[at as usize][k]);
-            }
-            sum
-        };
-        let mut next: Vec<[f64; 3]> = centre.stage(m).matrix.iter().map(row).collect();
+    fn advanced(&self, centre: &Centre, m: usize, rest: &[[f64; 3]]) -> Result<Vec<[f64; 3]>, Error> {
+        let mut next = centre.stage(m).advanced(rest)?;
         if let (true, Some(beyond), Ok(_)) = (m + 1 == centre.leading(), &centre.beyond, &self.tangents) {
             let shrunk = [1.0, self.ratio.powi(m as i32 + 1)].map(|ratio| ratio * self.lambda.powi(m as i32 + 1));
             for (t, r) in next.iter_mut().zip(beyond) {
@@ -126,19 +120,19 @@ impl Ladder {
             }
         }
         self.project(centre, m + 1, &mut next);
-        next
+        Ok(next)
     }
 
     /// The points of a level in the frame, x and y over `lambda^m`, z over `lambda^2m`.
-    pub fn points(&mut self, centre: &Centre, m: usize) -> Vec<[f64; 3]> {
+    pub fn points(&mut self, centre: &Centre, m: usize) -> Result<Vec<[f64; 3]>, Error> {
         while self.rest.len() <= m.min(KEPT) {
             let m = self.rest.len() - 1;
-            let next = self.advanced(centre, m, &self.rest[m]);
+            let next = self.advanced(centre, m, &self.rest[m])?;
             self.rest.push(next);
         }
         let mut rest = self.rest[m.min(KEPT)].clone();
         for level in KEPT..m {
-            rest = self.advanced(centre, level, &rest);
+            rest = self.advanced(centre, level, &rest)?;
         }
         let shrunk = self.lambda.powi(m as i32);
         let slower = self.ratio.powi(m as i32);
@@ -149,7 +143,7 @@ impl Ladder {
                 (0..2).for_each(|k| t[k] += r[0] * self.plane[0][k] + r[1] * self.plane[1][k]);
             }
         }
-        rest
+        Ok(rest)
     }
 
     /// The jet at `(s, t)` of the quarter at a corner (1 to 3) of the face of level m, in the frame, and the
@@ -172,7 +166,7 @@ impl Ladder {
         }
         let refined = match self.refined.take() {
             Some((known, refined)) if known == m => refined,
-            _ => stage.refined(&self.points(centre, m))?,
+            _ => stage.refined(&self.points(centre, m)?)?,
         };
         let mut made = stage.patches(context, &refined, quarter, s, t)?;
         self.refined = Some((m, refined));

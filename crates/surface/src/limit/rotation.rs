@@ -21,11 +21,14 @@ pub(super) const MANY: usize = 16;
 /// More work than this, in blocks times the cube of their size, is refused: a minute or so.
 const MOST: usize = 1 << 32;
 
-/// Sums of the order that a rule has around a centre may differ in rounding.
-const SAME: f64 = 1e-13;
+/// Sums around a centre may differ in rounding.
+const SAME: f64 = 1e-12;
 
-/// A point, by its orbit and sector, or the centre, and its weight.
-type Term = (Option<(usize, usize)>, f64);
+/// A point of the rings: its orbit and sector, or the centre.
+type Seat = Option<(usize, usize)>;
+
+/// A point and its weight.
+type Term = (Seat, f64);
 
 /// The orbits around a centre, and the blocks of the matrix.
 #[derive(Debug)]
@@ -39,11 +42,48 @@ pub(super) struct Rotation {
     /// weight.
     rows: Vec<Vec<Term>>,
     centre: Vec<Term>,
+    /// The rows of all other points.
+    outside: Vec<(u32, Row)>,
+    points: usize,
+}
+
+/// Whether a map turns with the sectors and reads nothing else: of two columns, of which one is the other
+/// turned and which differ outside, so are the images. The columns have no symmetry of their own.
+fn turns(places: &[Option<Seat>], sectors: usize, map: impl Fn(&[[f64; 2]]) -> Option<Vec<[f64; 2]>>) -> Option<bool> {
+    let value = |orbit: usize, sector: usize| (1.3 * orbit as f64 + 2.9 * (sector % sectors) as f64).sin();
+    let columns = places.iter().map(|place| match *place {
+        Some(Some((orbit, sector))) => [value(orbit, sector), value(orbit, sector + 1)],
+        Some(None) => [0.3; 2],
+        None => [0.7, -0.7],
+    });
+    let images = map(&columns.collect::<Vec<_>>())?;
+    let mut first: Vec<Vec<f64>> = Vec::new();
+    for (place, image) in places.iter().zip(&images) {
+        if let Some(Some((orbit, sector))) = *place {
+            if first.len() <= orbit {
+                first.resize(orbit + 1, vec![0.0; sectors]);
+            }
+            first[orbit][sector] = image[0];
+        }
+    }
+    let agrees = |(place, image): (&Option<Seat>, &[f64; 2])| match *place {
+        Some(Some((orbit, sector))) => (image[1] - first[orbit][(sector + 1) % sectors]).abs() <= SAME,
+        Some(None) => (image[1] - image[0]).abs() <= SAME,
+        None => true,
+    };
+    Some(places.iter().zip(&images).all(agrees))
 }
 
 impl Rotation {
-    /// The rotation of a part's matrix around its first corner, if it has one.
-    pub fn find(matrix: &[Row], local: &Local, rings: usize) -> Option<Self> {
+    /// The rotation of a part's matrix around its first corner, if it has one. The matrix has as many rows as
+    /// there are points; `rows` gives some of them, and `map` applies it to a pair of columns.
+    pub fn find(
+        local: &Local,
+        points: usize,
+        rings: usize,
+        rows: impl Fn(&[u32]) -> Vec<Row>,
+        map: impl Fn(&[[f64; 2]]) -> Option<Vec<[f64; 2]>>,
+    ) -> Option<Self> {
         let topology = &local.topology;
         let centre = topology.origin(0);
         let fan = topology.fan(centre);
@@ -67,7 +107,7 @@ impl Rotation {
             orbits.push(orbit.collect::<Option<Vec<u32>>>()?);
         }
         let fixed = (!dual).then_some(centre);
-        let mut places: Vec<Option<Option<(usize, usize)>>> = vec![None; matrix.len()];
+        let mut places: Vec<Option<Seat>> = vec![None; points];
         for (orbit, points) in orbits.iter().enumerate() {
             for (sector, &point) in points.iter().enumerate() {
                 // a net so small that a point is met twice has no such rotation
@@ -79,34 +119,25 @@ impl Rotation {
         if let Some(centre) = fixed {
             places[centre as usize] = Some(None);
         }
-        let named = |row: &Row, turn: usize| -> Option<Vec<Term>> {
-            let mut terms = Vec::with_capacity(row.len());
-            for &(at, weight) in row.iter().filter(|(_, weight)| *weight != 0.0) {
-                let place = places[at as usize]?;
-                terms.push((
-                    place.map(|(orbit, sector)| (orbit, (sector + sectors - turn) % sectors)),
-                    weight,
-                ));
-            }
+        if !turns(&places, sectors, map)? {
+            return None;
+        }
+        let named = |row: &Row| -> Option<Vec<Term>> {
+            let terms = row.iter().filter(|(_, weight)| *weight != 0.0);
+            let mut terms: Vec<Term> = terms
+                .map(|&(at, weight)| Some((places[at as usize]?, weight)))
+                .collect::<Option<_>>()?;
             terms.sort_unstable_by_key(|term| term.0);
             Some(terms)
         };
-        let mut rows = Vec::with_capacity(orbits.len());
-        for points in &orbits {
-            let first = named(&matrix[points[0] as usize], 0)?;
-            for (turn, &point) in points.iter().enumerate().skip(1) {
-                let other = named(&matrix[point as usize], turn)?;
-                let same = |(a, b): (&Term, &Term)| a.0 == b.0 && (a.1 - b.1).abs() <= SAME;
-                if other.len() != first.len() || !first.iter().zip(&other).all(same) {
-                    return None;
-                }
-            }
-            rows.push(first);
-        }
+        let firsts: Vec<u32> = orbits.iter().map(|orbit| orbit[0]).collect();
+        let own: Vec<Vec<Term>> = rows(&firsts).iter().map(named).collect::<Option<_>>()?;
         let centre = match fixed {
-            Some(centre) => named(&matrix[centre as usize], 0)?,
+            Some(centre) => named(&rows(&[centre])[0])?,
             None => Vec::new(),
         };
+        let others: Vec<u32> = (0..points as u32).filter(|&at| places[at as usize].is_none()).collect();
+        let outside = others.iter().copied().zip(rows(&others)).collect();
         let size = orbits.len();
         if (sectors / 2 + 1).checked_mul(size.pow(3))? > MOST {
             return None;
@@ -115,8 +146,10 @@ impl Rotation {
             sectors,
             orbits,
             fixed,
-            rows,
+            rows: own,
             centre,
+            outside,
+            points,
         })
     }
 
@@ -171,8 +204,8 @@ impl Rotation {
     }
 
     /// The row of weights at all points whose sums over orbits are those of a row of [`Rotation::means`].
-    pub fn shared(&self, sums: &[f64], points: usize) -> Vec<f64> {
-        let mut weights = vec![0.0; points];
+    pub fn shared(&self, sums: &[f64]) -> Vec<f64> {
+        let mut weights = vec![0.0; self.points];
         let mut sums = sums.iter();
         if let (Some(centre), Some(&sum)) = (self.fixed, self.fixed.and_then(|_| sums.next())) {
             weights[centre as usize] = sum;
@@ -187,9 +220,9 @@ impl Rotation {
 
     /// A vector of a frequency above 0 at all points of the orbits, its real and imaginary parts: `v_p w^(k
     /// s)` of right vectors, `v_p w^(-k s)` of left ones.
-    pub fn spread(&self, k: usize, vector: &[Complex<f64>], left: bool, points: usize) -> [Vec<f64>; 2] {
+    pub fn spread(&self, k: usize, vector: &[Complex<f64>], left: bool) -> [Vec<f64>; 2] {
         let n = self.sectors as i64;
-        let mut parts = [vec![0.0; points], vec![0.0; points]];
+        let mut parts = [vec![0.0; self.points], vec![0.0; self.points]];
         for (orbit, &value) in self.orbits.iter().zip(vector) {
             for (sector, &point) in orbit.iter().enumerate() {
                 let angle = (k as i64 * sector as i64) % n;
@@ -202,26 +235,15 @@ impl Rotation {
     }
 
     /// Goes on with a right vector of the rings to the points around the face.
-    pub fn continued(&self, matrix: &[Row], value: f64, vector: &mut [f64]) {
-        let mut inside = vec![false; matrix.len()];
-        self.orbits
-            .iter()
-            .flatten()
-            .for_each(|&point| inside[point as usize] = true);
-        if let Some(centre) = self.fixed {
-            inside[centre as usize] = true;
-        }
-        let outside: Vec<usize> = (0..matrix.len()).filter(|&point| !inside[point]).collect();
+    pub fn continued(&self, value: f64, vector: &mut [f64]) {
         // the eigenvalues of these points are far below
         for _ in 0..400 {
             let mut change = 0.0_f64;
-            for &point in &outside {
-                let sum: f64 = matrix[point]
-                    .iter()
-                    .map(|&(at, weight)| weight * vector[at as usize])
-                    .sum();
-                change = change.max((sum / value - vector[point]).abs());
-                vector[point] = sum / value;
+            for (point, row) in &self.outside {
+                let sum: f64 = row.iter().map(|&(at, weight)| weight * vector[at as usize]).sum();
+                let old = &mut vector[*point as usize];
+                change = change.max((sum / value - *old).abs());
+                *old = sum / value;
             }
             if change < 1e-17 {
                 break;
@@ -251,8 +273,9 @@ impl Rotation {
 mod tests {
     use super::*;
     use crate::limit::Surface;
-    use crate::limit::centre::{Leading, composed, leading, limit, turning};
+    use crate::limit::centre::composed;
     use crate::limit::local::Source;
+    use crate::limit::pair::{Leading, leading, limit_turning, turning};
     use crate::shapes::{StarKind, star};
     use crate::{Rules, Topology};
     use eigenring_scheme::{Definition, Spec};
@@ -286,12 +309,27 @@ mod tests {
             let fine = Topology::unchecked(&refined.mesh);
             let child = local.child(&refined, &fine, 0, kernel.reach()).unwrap();
             let matrix = composed(&refined, child.unknowns());
-            let rotation = Rotation::find(&matrix, &local, kernel.reach()).expect(spec);
+            let find = |matrix: &[Row]| {
+                let some = |points: &[u32]| points.iter().map(|&point| matrix[point as usize].clone()).collect();
+                let map = |columns: &[[f64; 2]]| {
+                    let image = |row: &Row| {
+                        let terms = row.iter().map(|&(at, w)| columns[at as usize].map(|x| w * x));
+                        terms.fold([0.0; 2], |sum, x| [sum[0] + x[0], sum[1] + x[1]])
+                    };
+                    Some(matrix.iter().map(image).collect())
+                };
+                Rotation::find(&local, matrix.len(), kernel.reach(), some, map)
+            };
+            let rotation = find(&matrix).expect(spec);
+            // one weight of one sector is another one
+            let mut broken = matrix.clone();
+            broken[rotation.orbits[0][n / 3] as usize][2].1 += 1e-9;
+            assert!(find(&broken).is_none(), "{spec}: no rotation");
             let dense = leading(&matrix)
                 .unwrap()
                 .unwrap_or_else(|why| panic!("{spec}: {why:?}"));
             // the limit is a left eigenvector of the whole matrix
-            let fixed = limit(&matrix, Some(&rotation));
+            let fixed = limit_turning(&rotation);
             let mut back = vec![0.0; matrix.len()];
             for (row, weight) in matrix.iter().zip(&fixed) {
                 row.iter().for_each(|&(at, w)| back[at as usize] += weight * w);
@@ -301,7 +339,7 @@ mod tests {
             // the rounding of sums over all sectors
             assert!(off < 1e-14, "{spec}: limit {off:e}");
             assert!((fixed.iter().sum::<f64>() - 1.0).abs() < 1e-14, "{spec}: limit");
-            let Leading { values, right, left } = turning(&matrix, &rotation).unwrap().unwrap();
+            let Leading { values, right, left } = turning(&rotation).unwrap().unwrap();
             for (value, expected) in values.iter().zip(dense.values) {
                 assert!((value - expected).abs() < 1e-12, "{spec}: {value} {expected}");
             }
@@ -317,8 +355,7 @@ mod tests {
                 assert!(right.iter().chain(left).any(|x| x.abs() > 0.1), "no zero vectors");
             }
             // heights of frequency 2 alone have a part in no other
-            let heights: Vec<f64> =
-                rotation.spread(2, &vec![Complex::one(); rotation.orbits.len()], false, matrix.len())[0].clone();
+            let heights: Vec<f64> = rotation.spread(2, &vec![Complex::one(); rotation.orbits.len()], false)[0].clone();
             for k in 0..=n / 2 {
                 let part = rotation.part(k, &heights);
                 let most = part.iter().fold(0.0_f64, |most, c| most.max(c.modulus()));

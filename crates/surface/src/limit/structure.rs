@@ -2,9 +2,11 @@
 //! four quarters. Faces around which the mesh looks the same share it, and only their points differ.
 
 use super::Surface;
-use super::centre::{Centre, Pair, Stage, Undefined, missing};
+use super::centre::{Centre, Stage};
 use super::local::{Key, Local, Source};
 use super::net::{Control, control};
+use super::pair::{Pair, Undefined};
+use super::quarter::missing;
 use crate::refine::Step;
 use crate::{Error, Topology};
 use std::collections::HashMap;
@@ -194,7 +196,7 @@ fn centre(surface: &Surface<'_>, local: &Local, level: usize) -> Result<Option<A
     }
     stages.reverse();
     let Some(pair) = pair else { return Ok(None) };
-    let centre = Arc::new(Centre::new(stages, &pair));
+    let centre = Arc::new(Centre::new(stages, &pair)?);
     if let Ok(mut known) = surface.known.lock() {
         known.centres.insert((key, level), Arc::clone(&centre));
     }
