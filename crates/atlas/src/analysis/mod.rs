@@ -177,8 +177,12 @@ fn prepared<'a>(
                 study.steps
             ),
             Basis::Intervals(scheme, _) => format!(
-                "{} levels of {scheme} come first: after them rules at extraordinary vertices do not change",
-                study.steps
+                "level 0 is the net after {} of {scheme}: from then on rules at extraordinary vertices do not change",
+                if study.steps == 1 {
+                    "one level".to_owned()
+                } else {
+                    format!("{} levels", study.steps)
+                }
             ),
         });
     }
