@@ -6,7 +6,7 @@
 //! The table [`expectation`] names every family. A family that is registered without an entry fails the test:
 //! what is new must say what it claims.
 
-use eigenring_scheme::lambda::{Bounds, Domain, LambdaTable, Relaxation};
+use eigenring_scheme::lambda::{Bounds, Domain, LambdaTable, Relaxation, Splines};
 use eigenring_scheme::{Complex, Error, FourierNet, Lattice, Level, Numbering, Scheme, Site, Spec, Symmetry, registry};
 use eigenring_spectral::{LocalSystem, Matrix, fourier_block, local_matrix, numbering};
 use eigenring_tests::Comparison;
@@ -62,6 +62,7 @@ fn expectation(family: &str) -> Option<Expectation> {
                         lambda,
                         s: None,
                         weights: Some((f2, f3)),
+                        splines: Splines::Paper,
                     })
                 });
                 points.collect()

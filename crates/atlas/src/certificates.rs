@@ -12,7 +12,7 @@ use eigenring_certify::parameter::{ParameterCertificate, recheck_parameter_text}
 use eigenring_certify::range::{RangeCertificate, StencilCurve, recheck_range_text};
 use eigenring_certify::valences::{Family, ValencesCertificate, recheck_valences_text};
 use eigenring_certify::{Certificate, Input, Requirement, Statement, Status, recheck_text};
-use eigenring_scheme::lambda::LambdaTable;
+use eigenring_scheme::lambda::{LambdaTable, Splines};
 use eigenring_scheme::user::Reading;
 use eigenring_scheme::{Number, Shape, Spec};
 use eigenring_tune::study::{LAMBDA_A, LAMBDA_M};
@@ -121,13 +121,13 @@ pub fn beside(
 /// [`Error::Usage`] for a scheme of another family, or with an s of its own; a valence that is not tabulated.
 pub fn curve(scheme: Option<&SchemeName>, valence: usize) -> Result<StencilCurve, Error> {
     match scheme {
-        None
-        | Some(SchemeName::Spec(
-            Spec::LambdaOptimal
-            | Spec::Lambda {
-                weights: None, s: None, ..
-            },
-        )) => Ok(StencilCurve::embedded(valence)?),
+        None | Some(SchemeName::Spec(Spec::LambdaOptimal)) => Ok(StencilCurve::embedded(valence)?),
+        Some(SchemeName::Spec(Spec::Lambda {
+            weights: None,
+            s: None,
+            splines,
+            ..
+        })) => Ok(StencilCurve::of(splines.table()?.entry(valence)?)),
         Some(SchemeName::Spec(Spec::Lambda {
             weights: Some((f2, f3)),
             s: None,
@@ -135,7 +135,7 @@ pub fn curve(scheme: Option<&SchemeName>, valence: usize) -> Result<StencilCurve
         })) => Ok(StencilCurve::Constant { f2: *f2, f3: *f3 }),
         Some(_) => Err(Error::Usage {
             message: "a range of lambda is for the lambda-scheme with s by its rule".to_owned(),
-            accepted: "lambda:optimal (its splines) or lambda:lambda=L,f2=X,f3=Y (constant f2, f3)".to_owned(),
+            accepted: "lambda:optimal (its splines), lambda:fine,lambda=L (the finer ones) or lambda:lambda=L,f2=X,f3=Y (constant f2, f3)".to_owned(),
         }),
     }
 }
@@ -212,6 +212,7 @@ pub fn singles(valences: &[usize]) -> Result<Vec<Single>, Error> {
                 lambda,
                 s: None,
                 weights: None,
+                splines: Splines::Paper,
             };
             singles.push(Single {
                 file: format!("lambda/N{valence:03}-{letter}.json").into(),

@@ -4,6 +4,7 @@ use crate::error::{Accepted, Error};
 use crate::on_mesh::OnMesh;
 use crate::schemes::{SchemeName, Tuner};
 use crate::table::short;
+use eigenring_scheme::lambda::Splines;
 use eigenring_scheme::user::Reading;
 use eigenring_scheme::{Definition, Spec};
 use eigenring_surface::io::{Format, MeshFile};
@@ -341,6 +342,10 @@ pub fn rules(scheme: &OnMesh, mesh: &Mesh, lambdas: &[(u32, f64)], tuner: &Tuner
         return if lambdas.is_empty() { Ok(rules) } else { Err(no_map()) };
     };
     let weighted = matches!(spec, Spec::Lambda { weights: Some(_), .. });
+    let splines = match spec {
+        Spec::Lambda { splines, .. } => *splines,
+        _ => Splines::Paper,
+    };
     let is_lambda = matches!(spec, Spec::LambdaOptimal | Spec::Lambda { .. });
     if !is_lambda {
         return if lambdas.is_empty() { Ok(rules) } else { Err(no_map()) };
@@ -355,6 +360,7 @@ pub fn rules(scheme: &OnMesh, mesh: &Mesh, lambdas: &[(u32, f64)], tuner: &Tuner
                 lambda: member.plane.lambda,
                 s: Some(member.plane.s),
                 weights: Some((member.f2, member.f3)),
+                splines,
             })
         }))
     };
@@ -384,6 +390,7 @@ pub fn rules(scheme: &OnMesh, mesh: &Mesh, lambdas: &[(u32, f64)], tuner: &Tuner
             lambda,
             s: None,
             weights: None,
+            splines,
         };
         let definition = found(&own, valence)?.unwrap_or(Definition::Family(own));
         rules = rules.with_vertex(vertex, definition);

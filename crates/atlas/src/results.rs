@@ -4,8 +4,8 @@
 //! one on disk.
 
 use crate::run::Parameters;
-use crate::table::{Cell, Format, Table, short};
-use eigenring_scheme::lambda::LambdaTable;
+use crate::table::{Format, Table, short};
+use eigenring_scheme::lambda::{LambdaKnots, LambdaTable};
 use eigenring_tune::study::{Knots, Study};
 use eigenring_tune::sweep::{Options, Range};
 use serde::{Deserialize, Serialize};
@@ -119,6 +119,7 @@ fn command(parameters: &Parameters) -> String {
     option(p.margin != usual.margin, format!(" --margin {}", p.margin));
     option(p.knots == Knots::Paper, " --knots paper".to_owned());
     option(p.knots == Knots::Sharp, " --knots sharp".to_owned());
+    option(p.knots == Knots::Fine, " --knots fine".to_owned());
     option(p.weighted != usual.weighted, " --unweighted".to_owned());
     option(p.epsilon != usual.epsilon, format!(" --epsilon {}", p.epsilon));
     option(p.weight != usual.weight, format!(" --weight {}", p.weight));
@@ -276,17 +277,27 @@ fn at_featured(studies: &[Study], value: impl Fn(&eigenring_tune::study::Feature
     table
 }
 
-fn coefficients(studies: &[Study], values: impl Fn(&Study) -> &[f64; 17]) -> Table {
-    let mut table = Table::new(std::iter::once("valence".to_owned()).chain((1..=17).map(|i| format!("C{i}"))));
+/// The most coefficients of a valence.
+fn most_coefficients(studies: &[Study]) -> usize {
+    let counts = studies.iter().map(|study| study.knots.values.dimension());
+    counts.max().unwrap_or(17)
+}
+
+/// Cells are empty where a valence has fewer coefficients than another one.
+fn coefficients(studies: &[Study], values: impl Fn(&Study) -> &[f64]) -> Table {
+    let most = most_coefficients(studies);
+    let mut table = Table::new(std::iter::once("valence".to_owned()).chain((1..=most).map(|i| format!("C{i}"))));
     for study in studies {
-        let cells = values(study).iter().map(|&c| Cell::from(c));
+        let values = values(study);
+        let cells = (0..most).map(|i| values.get(i).copied().into());
         table.push(std::iter::once(study.valence.into()).chain(cells).collect());
     }
     table
 }
 
 fn knots(studies: &[Study]) -> Table {
-    let mut table = Table::new(std::iter::once("valence".to_owned()).chain((1..=21).map(|i| format!("xi{i}"))));
+    let most = most_coefficients(studies) + LambdaKnots::DEGREE + 1;
+    let mut table = Table::new(std::iter::once("valence".to_owned()).chain((1..=most).map(|i| format!("xi{i}"))));
     for study in studies {
         // Eq. 21: fourfold ends, triple knots b, c, d, and the middles. A study's knots were valid when it
         // was made
@@ -295,7 +306,7 @@ fn knots(studies: &[Study]) -> Table {
             .values
             .knots()
             .map_or(Vec::new(), |knots| knots.values().to_vec());
-        let cells = (0..21).map(|i| knots.get(i).copied().into());
+        let cells = (0..most).map(|i| knots.get(i).copied().into());
         table.push(std::iter::once(study.valence.into()).chain(cells).collect());
     }
     table

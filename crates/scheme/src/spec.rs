@@ -5,7 +5,7 @@
 //! walks the registry.
 
 use crate::families::{catmull_clark, doo_sabin, tension};
-use crate::lambda::{Member, Untabulated};
+use crate::lambda::{Member, Splines, Untabulated};
 use crate::{Error, Exact, Scalar, Scheme, did_you_mean};
 use std::fmt;
 use std::str::FromStr;
@@ -50,8 +50,8 @@ pub fn registry() -> &'static [Family] {
         },
         Family {
             name: "lambda",
-            usage: "lambda:optimal | lambda:lambda=L[,f2=X,f3=Y][,s=S]",
-            summary: "bicubic, tuned for a subdominant eigenvalue (Ma, Wang and Ma 2023); weights from the embedded spline table unless f2 and f3 are given",
+            usage: "lambda:optimal | lambda:lambda=L[,f2=X,f3=Y][,s=S] | lambda:fine,lambda=L",
+            summary: "bicubic, tuned for a subdominant eigenvalue (Ma, Wang and Ma 2023); weights from the embedded spline table, or from the one with more coefficients (fine), unless f2 and f3 are given",
             examples: &["lambda:optimal", "lambda:lambda=0.5", "lambda:lambda=0.39"],
             parse: parse_lambda,
         },
@@ -116,6 +116,8 @@ pub enum Spec {
         s: Option<f64>,
         /// (f2, f3); if not given, those of the embedded table, which belong to the s of the rule.
         weights: Option<(f64, f64)>,
+        /// Whose weights, if they are not given.
+        splines: Splines,
     },
     /// The generalised tension scheme.
     Tension {
@@ -163,9 +165,14 @@ impl Spec {
     ) -> Result<Option<Member>, E> {
         match *self {
             Spec::LambdaOptimal => Member::optimal(valence, beyond).map(Some),
-            Spec::Lambda { lambda, s, weights } => match weights {
+            Spec::Lambda {
+                lambda,
+                s,
+                weights,
+                splines,
+            } => match weights {
                 Some((f2, f3)) => Ok(Some(Member::given(valence, lambda, s, [f2, f3])?)),
-                None => Member::at(valence, lambda, s, beyond).map(Some),
+                None => Member::at(valence, lambda, s, splines, beyond).map(Some),
             },
             _ => Ok(None),
         }
@@ -223,8 +230,14 @@ impl fmt::Display for Spec {
             Spec::DooSabin => write!(f, "doo-sabin"),
             Spec::DooSabinUniform => write!(f, "doo-sabin:uniform"),
             Spec::LambdaOptimal => write!(f, "lambda:optimal"),
-            Spec::Lambda { lambda, s, weights } => {
-                write!(f, "lambda:lambda={}", Short(*lambda))?;
+            Spec::Lambda {
+                lambda,
+                s,
+                weights,
+                splines,
+            } => {
+                let fine = if *splines == Splines::Fine { "fine," } else { "" };
+                write!(f, "lambda:{fine}lambda={}", Short(*lambda))?;
                 if let Some((f2, f3)) = weights {
                     write!(f, ",f2={},f3={}", Short(*f2), Short(*f3))?;
                 }
@@ -315,6 +328,7 @@ fn parse_lambda(parameters: &mut Parameters<'_>) -> Result<Spec, Error> {
     if parameters.flag("optimal") {
         return Ok(Spec::LambdaOptimal);
     }
+    let fine = parameters.flag("fine");
     let Some(lambda) = parameters.take("lambda")? else {
         return Err(parameters.refuse("neither 'optimal' nor a lambda is given"));
     };
@@ -328,7 +342,16 @@ fn parse_lambda(parameters: &mut Parameters<'_>) -> Result<Spec, Error> {
     if numbers.iter().flatten().any(|number: &f64| !number.is_finite()) {
         return Err(parameters.refuse("a parameter is not a finite number"));
     }
-    Ok(Spec::Lambda { lambda, s, weights })
+    if fine && (s.is_some() || weights.is_some()) {
+        return Err(parameters.refuse("the fine splines give f2, f3 and s themselves"));
+    }
+    let splines = if fine { Splines::Fine } else { Splines::Paper };
+    Ok(Spec::Lambda {
+        lambda,
+        s,
+        weights,
+        splines,
+    })
 }
 
 impl FromStr for Spec {

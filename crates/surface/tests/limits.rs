@@ -5,6 +5,7 @@
 //! are off by 1e-15 2^d, second ones by 1e-15 4^d, and curvatures by what follows from that.
 
 use crate::common::{json, own, rules, shared};
+use eigenring_scheme::lambda::Splines;
 use eigenring_scheme::{Definition, Spec};
 use eigenring_surface::io::Format;
 use eigenring_surface::limit::{Kind, Place, Surface};
@@ -340,6 +341,7 @@ fn single_vertices_have_their_own_lambda() {
             lambda,
             s: None,
             weights: None,
+            splines: Splines::Paper,
         })
     };
     let rules = Rules::new(Definition::Family(Spec::CatmullClark));

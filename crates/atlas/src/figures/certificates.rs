@@ -43,12 +43,7 @@ fn proven(inputs: &Inputs<'_>, valence: usize) -> Result<Vec<Interval>, Error> {
         return Ok(Vec::new());
     };
     let lambda = [entry.knots.a, entry.knots.e];
-    let curve = StencilCurve::Splines {
-        knots: entry.knots,
-        f2: entry.f2.to_vec(),
-        f3: entry.f3.to_vec(),
-    };
-    let certificate = prove_range(valence, curve, lambda, Limits::default())?;
+    let certificate = prove_range(valence, StencilCurve::of(&entry), lambda, Limits::default())?;
     let of = |requirement: Requirement| {
         let segments = certificate.required(requirement).into_iter();
         segments.map(move |segment| Interval {

@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::progress::Progress;
 use crate::schemes::{SchemeName, Tuner, distinct};
 use crate::table::{Cell, Table};
+use eigenring_scheme::lambda::Splines;
 use eigenring_scheme::{Scheme, Spec};
 use eigenring_spectral::Sufficient;
 use eigenring_tune::study::{LAMBDA_A, LAMBDA_M};
@@ -160,6 +161,7 @@ pub fn featured(inputs: &Inputs<'_>, valence: usize) -> Result<Vec<Subject>, Err
             lambda,
             s: None,
             weights: None,
+            splines: Splines::Paper,
         };
         let scheme = SchemeName::Spec(spec).scheme(valence, tuner)?;
         Ok(Subject {

@@ -6,7 +6,7 @@ use crate::progress::{Progress, Silent};
 use crate::run::minima_over_lambda;
 use crate::table::short;
 use eigenring_scheme::Spec;
-use eigenring_scheme::lambda::{Bounds, Domain, Member, Plane, Source, Untabulated};
+use eigenring_scheme::lambda::{Bounds, Domain, Member, Plane, Source, Splines, Untabulated};
 use eigenring_tune::sweep::{Options, Problem};
 use serde::{Deserialize, Serialize};
 
@@ -66,7 +66,7 @@ impl Tuner<'_> {
     /// # Errors
     /// Those of the plane, and of the tuning.
     pub fn at(&self, valence: usize, lambda: f64, s: Option<f64>) -> Result<Member, Error> {
-        Member::at(valence, lambda, s, |wanted| self.tune(wanted, s))
+        Member::at(valence, lambda, s, Splines::Paper, |wanted| self.tune(wanted, s))
     }
 
     /// The globally optimal member of a valence.

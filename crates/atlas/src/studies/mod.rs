@@ -21,6 +21,8 @@ pub enum Study {
     Large,
     /// Splines with as many coefficients that lose less.
     Sharp,
+    /// What the embedded splines lose, and those with more coefficients.
+    Fine,
 }
 
 /// The folder of their files.
@@ -38,6 +40,7 @@ impl Study {
             Study::Normalisation => normalisation::files(progress),
             Study::Large => splines::large(progress),
             Study::Sharp => splines::sharp(progress),
+            Study::Fine => splines::fine(progress),
         }
     }
 }

@@ -107,8 +107,8 @@ pub fn with_proof(record: Record, proof: &Proof, epsilon: f64) -> Record {
         .with("better", better)
 }
 
-/// Valences whose s is 1 at lambda_C*, from the first with a plane of stencils on.
-const VALENCES: std::ops::RangeInclusive<usize> = 5..=12;
+/// The tabulated valences, from the first with a plane of stencils on.
+const VALENCES: std::ops::RangeInclusive<usize> = 5..=20;
 
 /// The stencils at lambda_C*, with and without the weight.
 fn subjects() -> Result<Vec<Tuned>, Error> {

@@ -40,27 +40,48 @@ pub(super) fn large(progress: &dyn Progress) -> Result<Vec<(String, Vec<u8>)>, E
 /// What the splines of the paper's valences lose with the knots of the tables, with those of the paper, and
 /// with knots and a fit that lose least; and the coefficients of the last.
 pub(super) fn sharp(progress: &dyn Progress) -> Result<Vec<(String, Vec<u8>)>, Error> {
+    let kinds = [
+        ("detected", Knots::Detected),
+        ("paper", Knots::Paper),
+        ("sharp", Knots::Sharp),
+    ];
+    let (table, all) = losses(&kinds, progress)?;
+    let names = [
+        ("table5_f2_coefficients", "f2"),
+        ("table6_f3_coefficients", "f3"),
+        ("knots", "knots"),
+        ("accuracy", "accuracy"),
+    ];
+    let mut written = vec![("sharp.csv".to_owned(), table.render(Format::Csv).into_bytes())];
+    written.extend(files(&all[2], "sharp", &names));
+    Ok(written)
+}
+
+/// What the embedded splines of the paper's valences lose, and those with more coefficients.
+pub(super) fn fine(progress: &dyn Progress) -> Result<Vec<(String, Vec<u8>)>, Error> {
+    let (table, _) = losses(&[("detected", Knots::Detected), ("fine", Knots::Fine)], progress)?;
+    Ok(vec![("fine.csv".to_owned(), table.render(Format::Csv).into_bytes())])
+}
+
+/// What splines of several kinds lose at the paper's valences, a row for each valence and kind; and the runs.
+fn losses(kinds: &[(&str, Knots)], progress: &dyn Progress) -> Result<(Table, Vec<Vec<Study>>), Error> {
     let valences: Vec<usize> = (3..=20).collect();
     let mut table = Table::new([
         "valence",
         "knots",
+        "coefficients",
         "lambda_b",
         "lambda_d",
         "excess",
         "excess_at",
         "excess_overall",
     ]);
-    let kinds = [
-        ("detected", Knots::Detected),
-        ("paper", Knots::Paper),
-        ("sharp", Knots::Sharp),
-    ];
     let mut all = Vec::new();
-    for (name, knots) in kinds {
-        all.push((name, run(valences.clone(), knots, progress)?));
+    for &(_, knots) in kinds {
+        all.push(run(valences.clone(), knots, progress)?);
     }
     for index in 0..valences.len() {
-        for (name, studies) in &all {
+        for ((name, _), studies) in kinds.iter().zip(&all) {
             let study = &studies[index];
             if *name == "paper" && paper_row(study.valence).is_none() {
                 continue;
@@ -69,6 +90,7 @@ pub(super) fn sharp(progress: &dyn Progress) -> Result<Vec<(String, Vec<u8>)>, E
             table.push(vec![
                 study.valence.into(),
                 (*name).into(),
+                knots.dimension().into(),
                 knots.b.into(),
                 knots.d.into(),
                 accuracy.excess.into(),
@@ -77,13 +99,5 @@ pub(super) fn sharp(progress: &dyn Progress) -> Result<Vec<(String, Vec<u8>)>, E
             ]);
         }
     }
-    let names = [
-        ("table5_f2_coefficients", "f2"),
-        ("table6_f3_coefficients", "f3"),
-        ("knots", "knots"),
-        ("accuracy", "accuracy"),
-    ];
-    let mut written = vec![("sharp.csv".to_owned(), table.render(Format::Csv).into_bytes())];
-    written.extend(files(&all[2].1, "sharp", &names));
-    Ok(written)
+    Ok((table, all))
 }

@@ -19,7 +19,7 @@ pub(crate) use subject::passes_are_affine;
 
 use crate::levels::Beyond;
 use crate::{Error, Interval};
-use eigenring_scheme::lambda::{Member, Source, Untabulated};
+use eigenring_scheme::lambda::{Member, Source, Splines, Untabulated};
 use eigenring_scheme::user::{Balance, Reading, UserScheme};
 use eigenring_scheme::{Definition, Number, OneRing, Shape, Spec};
 use identities::lambda_subject;
@@ -134,6 +134,7 @@ impl Input {
                     lambda: *lambda,
                     s: Some(*s),
                     weights: Some((*f2, *f3)),
+                    splines: Splines::Paper,
                 }
                 .to_string(),
                 None => format!("lambda:lambda={lambda},f2={f2},f3=mu,s={s}"),

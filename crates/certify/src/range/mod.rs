@@ -24,7 +24,7 @@ pub mod stencil_box;
 use crate::document::{Document, tool};
 use crate::map::{self, JacobianEvidence, WindingEvidence};
 use crate::{Centred, Error, Interval, Requirement, Statement, Status, Witness};
-use eigenring_scheme::lambda::{LambdaKnots, LambdaTable, Relaxation};
+use eigenring_scheme::lambda::{LambdaEntry, LambdaKnots, LambdaTable, Relaxation};
 use eigenring_spline::{Knots, Scalar, Spline};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -39,7 +39,7 @@ pub const RANGE_VERSION: u32 = 1;
 pub enum StencilCurve {
     /// Cubic splines with the given knots; f3 is ignored at valence 4, where it is mu.
     Splines {
-        /// The five knots.
+        /// The knots.
         knots: LambdaKnots,
         /// Coefficients of f2.
         f2: Vec<f64>,
@@ -61,12 +61,16 @@ impl StencilCurve {
     /// # Errors
     /// A valence that is not tabulated.
     pub fn embedded(valence: usize) -> Result<Self, Error> {
-        let entry = LambdaTable::embedded()?.entry(valence)?;
-        Ok(StencilCurve::Splines {
+        Ok(StencilCurve::of(LambdaTable::embedded()?.entry(valence)?))
+    }
+
+    /// The splines of an entry.
+    pub fn of(entry: &LambdaEntry) -> Self {
+        StencilCurve::Splines {
             knots: entry.knots,
-            f2: entry.f2.to_vec(),
-            f3: entry.f3.to_vec(),
-        })
+            f2: entry.f2.clone(),
+            f3: entry.f3.clone(),
+        }
     }
 }
 

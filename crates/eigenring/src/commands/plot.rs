@@ -19,6 +19,7 @@ use eigenring_atlas::table::{Format, WIDTH};
 use eigenring_figure::{Figure, Width};
 use eigenring_nonuniform::{FirstLevel, Scheme, Spokes};
 use eigenring_scheme::Spec;
+use eigenring_scheme::lambda::Splines;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -391,6 +392,7 @@ impl Arguments {
                 lambda,
                 s: None,
                 weights: None,
+                splines: Splines::Paper,
             })
         };
         if self.schemes.given() {

@@ -39,13 +39,14 @@ use std::process::ExitCode;
 /// exist, the gaps of Lemma 1 on HNUSS, and reflection lines.
 ///
 /// With --study: OUT/studies/ gets what is shown of the lambda-scheme beyond the papers' tables. optimality:
-/// that no admissible stencil at lambda_C* is better than the tuned one, for valences 5 to 12, with the
+/// that no admissible stencil at lambda_C* is better than the tuned one, for valences 5 to 20, with the
 /// weight and without, by interval branch and bound. margin: which objectives, distances of the next
 /// eigenvalue from mu and signs of curvature go together at valences 5 to 8 (a Pareto front). normalisation:
 /// lambda_C* and its stencil where no scale of the eigenvectors enters the objective, beside those of the
 /// paper.
 /// large: spline tables of the valences from 21 to 64. sharp: splines with as many coefficients that lose
-/// less against the samples, beside those of the paper's knots.
+/// less against the samples, beside those of the paper's knots. fine: what those with more coefficients lose
+/// that lambda:fine,lambda=L stands for.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  eigenring tables                         all of results/lambda, valences 3 to 20\n  eigenring tables --valences 5,6          two valences, below eigenring-out\n  eigenring tables --starts full --format latex\n  eigenring tables --scheme tension        all of results/tension"
@@ -63,8 +64,9 @@ pub struct Arguments {
     /// eigenring-out with --valences or any option that changes the numbers
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
-    /// Triple knots: detected from the samples, those of the paper's Table 1, or those with which the splines
-    /// lose least, by a fit that looks at the objective
+    /// Knots: triple ones detected from the samples, those of the paper's Table 1, or those with which the
+    /// splines lose least, by a fit that looks at the objective (sharp); or the detected ones with as many
+    /// single ones as it takes to lose less than a hundredth (fine)
     #[arg(long, value_enum, default_value_t)]
     knots: KnotsArg,
     /// Also write the table that is compiled into the library; by default where it is compiled from
@@ -109,6 +111,8 @@ pub enum StudyArg {
     Large,
     /// Splines with as many coefficients that lose less.
     Sharp,
+    /// Splines with more coefficients.
+    Fine,
 }
 
 impl StudyArg {
@@ -119,6 +123,7 @@ impl StudyArg {
             StudyArg::Normalisation => Study::Normalisation,
             StudyArg::Large => Study::Large,
             StudyArg::Sharp => Study::Sharp,
+            StudyArg::Fine => Study::Fine,
         }
     }
 }
@@ -133,6 +138,8 @@ pub enum KnotsArg {
     Paper,
     /// Those, and the fit, that raise the objective least above the samples; slow.
     Sharp,
+    /// Detected, with more single knots where it takes them.
+    Fine,
 }
 
 /// Unfinished samples, below the results' folder.
@@ -140,6 +147,9 @@ const RESUME: &str = ".resume";
 
 /// Where `--embed` writes by default: the table of all valences, as the library carries it.
 const EMBEDDED: &str = "crates/scheme/data/lambda.json";
+
+/// Where `--knots fine --embed` does.
+const EMBEDDED_FINE: &str = "crates/scheme/data/lambda-fine.json";
 
 /// The valences that are tabulated by default.
 fn usual_valences() -> Vec<usize> {
@@ -153,6 +163,7 @@ impl Arguments {
             KnotsArg::Detected => Knots::Detected,
             KnotsArg::Paper => Knots::Paper,
             KnotsArg::Sharp => Knots::Sharp,
+            KnotsArg::Fine => Knots::Fine,
         };
         let valences = match &self.valences.valences {
             Some(valences) => valences.closed()?.to_vec(),
@@ -202,9 +213,17 @@ impl Arguments {
             self.threads.start()?;
             return eigenvalue_tables(tension::Parameters::new(parameters.valences), &out, format, wide);
         }
+        let fine = Parameters {
+            knots: Knots::Fine,
+            ..usual.clone()
+        };
         let embed = match &self.embed {
+            Some(None) if self.valences.valences.is_none() && parameters == fine => Some(EMBEDDED_FINE.into()),
             Some(None) if !stored => {
-                let message = format!("{EMBEDDED} is the table of all valences with the default options");
+                let message = format!(
+                    "{EMBEDDED} is the table of all valences with the default options, {EMBEDDED_FINE} that with \
+                     --knots fine"
+                );
                 return Err(Error::usage(message, "--embed FILE"));
             }
             Some(path) => Some(path.clone().unwrap_or_else(|| EMBEDDED.into())),

@@ -3,16 +3,16 @@
 use eigenring_spline::{Error, Knots};
 use serde::{Deserialize, Serialize};
 
-/// The five knots that determine the spline space of a valence (Ma, Wang and Ma 2023, Eq. 21): cubic, with
-/// the end knots `a`, `e` four times, the triple knots `b`, `c`, `d` where the stencils may have kinks, and a
-/// single knot half way between each two neighbours:
+/// The knots that determine the spline space of a valence (Ma, Wang and Ma 2023, Eq. 21): cubic, with the end
+/// knots `a`, `e` four times, the triple knots `b`, `c`, `d` where the stencils may have kinks, and in the
+/// paper a single knot half way between each two neighbours:
 ///
 /// ```text
 /// a a a a  (a+b)/2  b b b  (b+c)/2  c c c  (c+d)/2  d d d  (d+e)/2  e e e e        21 knots, 17 coefficients
 /// ```
 ///
 /// `c` is lambda_l, the smallest lambda with bounded curvature, or, where that is beyond `e` (from N = 24 on
-/// with the paper's 0.9), a kink like the other two.
+/// with the paper's 0.9), a kink like the other two. Finer splines have more single knots, in equal steps.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LambdaKnots {
     /// Start of the domain, 0.15 in the paper.
@@ -25,13 +25,34 @@ pub struct LambdaKnots {
     pub d: f64,
     /// End of the domain, 0.9 in the paper.
     pub e: f64,
+    /// How many single knots there are in each of the four intervals, one in the paper.
+    #[serde(
+        default = "LambdaKnots::paper_singles",
+        skip_serializing_if = "LambdaKnots::are_paper_singles"
+    )]
+    pub singles: [usize; 4],
 }
 
 impl LambdaKnots {
     /// Degree of the splines.
     pub const DEGREE: usize = 3;
-    /// Number of coefficients.
-    pub const DIMENSION: usize = 17;
+    /// The single knots of the paper.
+    pub const SINGLES: [usize; 4] = [1; 4];
+    /// The most single knots of an interval. Empirical: a sixth of it serves the tables.
+    pub const MOST_SINGLES: usize = 64;
+
+    fn paper_singles() -> [usize; 4] {
+        Self::SINGLES
+    }
+
+    fn are_paper_singles(singles: &[usize; 4]) -> bool {
+        *singles == Self::SINGLES
+    }
+
+    /// Number of coefficients: 17 in the paper.
+    pub fn dimension(&self) -> usize {
+        13 + self.singles.iter().sum::<usize>()
+    }
 
     /// The five knots in order.
     pub fn values(&self) -> [f64; 5] {
@@ -41,23 +62,35 @@ impl LambdaKnots {
     /// The spline space.
     ///
     /// # Errors
-    /// [`Error::Knots`] unless `a < b < c < d < e` are finite.
+    /// [`Error::Knots`] unless `a < b < c < d < e` are finite, with at most [`LambdaKnots::MOST_SINGLES`] single
+    /// knots between two of them, all of which are different doubles.
     pub fn knots(&self) -> Result<Knots, Error> {
         let [a, b, c, d, e] = self.values();
-        for (index, pair) in self.values().windows(2).enumerate() {
-            // the middle must lie strictly between, or a knot would become four-fold
-            let middle = 0.5 * (pair[0] + pair[1]);
-            if !(pair[0] < middle && middle < pair[1]) {
-                return Err(Error::Knots {
-                    index: index + 1,
-                    value: pair[1],
-                    reason: "lambda_a < lambda_b < lambda_c < lambda_d < lambda_e",
-                });
-            }
-        }
         let mut knots = vec![a; Self::DEGREE + 1];
-        for (left, right) in [(a, b), (b, c), (c, d), (d, e)] {
-            knots.push(0.5 * (left + right));
+        for (index, (left, right)) in [(a, b), (b, c), (c, d), (d, e)].into_iter().enumerate() {
+            let refused = |reason| Error::Knots {
+                index: index + 1,
+                value: right,
+                reason,
+            };
+            let singles = self.singles[index];
+            if singles > Self::MOST_SINGLES {
+                return Err(refused("at most 64 single knots between two triple ones"));
+            }
+            let mut last = left;
+            for i in 1..=singles {
+                let part = i as f64 / (singles + 1) as f64;
+                let knot = (1.0 - part) * left + part * right;
+                // strictly between, or a knot would become four-fold
+                if !(last < knot && knot < right) {
+                    return Err(refused("lambda_a < lambda_b < lambda_c < lambda_d < lambda_e"));
+                }
+                knots.push(knot);
+                last = knot;
+            }
+            if !(left < right && right.is_finite()) {
+                return Err(refused("lambda_a < lambda_b < lambda_c < lambda_d < lambda_e"));
+            }
             knots.extend([right; Self::DEGREE]);
         }
         knots.push(e);
@@ -78,24 +111,35 @@ mod tests {
             c: 3.0,
             d: 4.0,
             e: 8.0,
+            singles: LambdaKnots::SINGLES,
         };
+        let finer = LambdaKnots {
+            singles: [0, 3, 1, 2],
+            ..knots
+        };
+        assert_eq!((knots.dimension(), finer.dimension()), (17, 19));
+        assert_eq!(
+            finer.knots().unwrap().values()[4..12],
+            [1.0, 1.0, 1.0, 1.5, 2.0, 2.5, 3.0, 3.0]
+        );
+        assert_eq!(finer.knots().unwrap().dimension(), 19);
+        let too_many = LambdaKnots {
+            singles: [65, 1, 1, 1],
+            ..knots
+        };
+        assert!(matches!(too_many.knots(), Err(Error::Knots { index: 1, .. })));
         let knots = knots.knots().unwrap();
         let expected = [
             0.0, 0.0, 0.0, 0.0, 0.5, 1.0, 1.0, 1.0, 2.0, 3.0, 3.0, 3.0, 3.5, 4.0, 4.0, 4.0, 6.0, 8.0, 8.0, 8.0, 8.0,
         ];
         assert_eq!(knots.values(), expected);
-        assert_eq!(knots.dimension(), LambdaKnots::DIMENSION);
+        assert_eq!(knots.dimension(), 17);
     }
 
     #[test]
     fn every_row_of_the_paper_is_a_knot_vector() {
         for row in PAPER_TABLE_1 {
-            assert_eq!(
-                row.knots().knots().unwrap().dimension(),
-                LambdaKnots::DIMENSION,
-                "N = {}",
-                row.valence
-            );
+            assert_eq!(row.knots().knots().unwrap().dimension(), 17, "N = {}", row.valence);
         }
     }
 
@@ -112,6 +156,7 @@ mod tests {
                     c: k[2],
                     d: k[3],
                     e: k[4],
+                    singles: LambdaKnots::SINGLES,
                 };
                 assert!(matches!(knots.knots(), Err(Error::Knots { .. })), "{k:?}");
             }

@@ -5,7 +5,7 @@
 //! is asked for the [`Untabulated`] one. A caller without a tuner hands in [`Untabulated::refuse`]. So a name
 //! means the same to all of them, or is refused.
 
-use super::{LambdaTable, Plane, Relaxation};
+use super::{LambdaTable, Plane, Relaxation, Splines};
 use crate::{Error, Scalar, Scheme};
 
 /// A scheme of the family at one valence.
@@ -108,8 +108,8 @@ impl Member {
         })
     }
 
-    /// The member at lambda: that of the table where it reaches and s is left to the rule, else what `beyond`
-    /// gives.
+    /// The member at lambda: that of the table of these splines where it reaches and s is left to the rule,
+    /// else what `beyond` gives.
     ///
     /// # Errors
     /// Those of the plane as in [`Member::given`], and those of `beyond`.
@@ -117,10 +117,11 @@ impl Member {
         valence: usize,
         lambda: f64,
         s: Option<f64>,
+        splines: Splines,
         beyond: impl FnOnce(Untabulated) -> Result<Self, E>,
     ) -> Result<Self, E> {
         let plane = plane(valence, lambda, s)?;
-        let tabulated = LambdaTable::embedded()?.entry(valence).ok();
+        let tabulated = splines.table()?.entry(valence).ok();
         match tabulated {
             Some(entry) if s.is_none() && (entry.knots.a..=entry.knots.e).contains(&lambda) => {
                 let (f2, f3) = entry.weights(lambda)?;
@@ -147,7 +148,7 @@ impl Member {
             return Err(Error::Valence { valence }.into());
         }
         match LambdaTable::embedded()?.entry(valence) {
-            Ok(entry) => Member::at(valence, entry.lambda_optimal, None, beyond),
+            Ok(entry) => Member::at(valence, entry.lambda_optimal, None, Splines::Paper, beyond),
             Err(_) => beyond(Untabulated::Optimal { valence }),
         }
     }
@@ -185,7 +186,7 @@ mod tests {
             let optimal = Member::optimal(valence, refuse).unwrap();
             assert_eq!(optimal.plane.lambda, entry.lambda_optimal);
             assert_eq!(optimal.source, Source::Table);
-            let inside = Member::at(valence, 0.5, None, refuse).unwrap();
+            let inside = Member::at(valence, 0.5, None, Splines::Paper, refuse).unwrap();
             assert_eq!((inside.f2, inside.f3), entry.weights(0.5).unwrap());
         }
     }
@@ -198,22 +199,22 @@ mod tests {
         };
         assert_eq!(Member::optimal(25, asked).unwrap().f2, 0.25);
         for (valence, lambda, s) in [(25, 0.6, None), (6, 0.95, None), (6, 0.5, Some(1.2))] {
-            assert_eq!(Member::at(valence, lambda, s, asked).unwrap().f2, 0.3);
+            assert_eq!(Member::at(valence, lambda, s, Splines::Fine, asked).unwrap().f2, 0.3);
         }
         assert!(matches!(
             Member::optimal(25, refuse),
             Err(Error::NotTabulated { valence: 25, .. })
         ));
         assert!(matches!(
-            Member::at(25, 0.6, None, refuse),
+            Member::at(25, 0.6, None, Splines::Paper, refuse),
             Err(Error::NotTabulated { .. })
         ));
         assert!(matches!(
-            Member::at(6, 0.95, None, refuse),
+            Member::at(6, 0.95, None, Splines::Fine, refuse),
             Err(Error::Spline(eigenring_spline::Error::OutsideSpline { .. }))
         ));
         assert!(matches!(
-            Member::at(6, 0.5, Some(1.2), refuse),
+            Member::at(6, 0.5, Some(1.2), Splines::Paper, refuse),
             Err(Error::GivenRelaxation { valence: 6, .. })
         ));
         assert!(matches!(Member::optimal(2, refuse), Err(Error::Valence { valence: 2 })));

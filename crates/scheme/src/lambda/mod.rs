@@ -22,4 +22,4 @@ pub use member::{Member, Source, Untabulated};
 pub use paper::{LAMBDA_A, LAMBDA_M, LAMBDA_R1, PAPER_TABLE_1, PaperRow};
 pub use plane::{LambdaStencil, Plane};
 pub use relaxation::{Addition, Branch, Relaxation, Term};
-pub use table::{LambdaEntry, LambdaTable, Provenance, TABLE_VERSION, TableError};
+pub use table::{LambdaEntry, LambdaTable, Provenance, Splines, TABLE_VERSION, TableError};

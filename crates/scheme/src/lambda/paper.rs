@@ -47,6 +47,7 @@ impl PaperRow {
             c: self.lambda_l,
             d: self.lambda_d,
             e: 0.9,
+            singles: LambdaKnots::SINGLES,
         }
     }
 }

@@ -1,8 +1,9 @@
 //! The embedded spline stencils: f2 and f3 as functions of lambda, for each tabulated valence.
 //!
 //! Evaluation is Eq. 22 of Ma, Wang and Ma (2023), `f_i(lambda) = b(lambda)^T C_i` with the cubic basis on
-//! [`LambdaKnots`]. The file `data/lambda.json` is written by the tool itself and never by hand; its `digest`
-//! covers every number in it, so that a changed file is refused instead of giving other stencils. At valence
+//! [`LambdaKnots`]. There are two tables, [`Splines`]: that of the paper's 17 coefficients, and a finer one for
+//! whoever asks for it. The files `data/lambda*.json` are written by the tool itself and never by hand; their
+//! `digest` covers every number in them, so that a changed file is refused instead of giving other stencils. At valence
 //! 4, block 2 is diagonal with f3 on its diagonal, so f3 is `mu = s lambda^2` by formula; the tabulated
 //! spline only approximates it and is kept to be compared.
 
@@ -47,10 +48,10 @@ pub struct LambdaEntry {
     pub valence: usize,
     /// The knots.
     pub knots: LambdaKnots,
-    /// Coefficients of f2.
-    pub f2: [f64; LambdaKnots::DIMENSION],
-    /// Coefficients of f3.
-    pub f3: [f64; LambdaKnots::DIMENSION],
+    /// Coefficients of f2, [`LambdaKnots::dimension`] of them.
+    pub f2: Vec<f64>,
+    /// Coefficients of f3, as many.
+    pub f3: Vec<f64>,
     /// The globally optimal lambda, lambda_C*.
     pub lambda_optimal: f64,
     /// The smallest lambda with bounded curvature.
@@ -113,17 +114,43 @@ pub enum TableError {
     },
 }
 
-impl LambdaTable {
-    /// The table that is compiled into this crate.
+/// Which of the tables that are compiled into this crate.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Splines {
+    /// With the 17 coefficients of the paper.
+    #[default]
+    Paper,
+    /// With more single knots where 17 coefficients lose more than a hundredth of the objective against the
+    /// samples.
+    Fine,
+}
+
+impl Splines {
+    /// The table.
     ///
     /// # Errors
     /// [`Error::Table`] if the file that was compiled in is not valid.
-    pub fn embedded() -> Result<&'static LambdaTable, Error> {
-        static TABLE: OnceLock<Result<LambdaTable, Error>> = OnceLock::new();
-        TABLE
-            .get_or_init(|| LambdaTable::from_json(include_str!("../../data/lambda.json")))
+    pub fn table(self) -> Result<&'static LambdaTable, Error> {
+        static PAPER: OnceLock<Result<LambdaTable, Error>> = OnceLock::new();
+        static FINE: OnceLock<Result<LambdaTable, Error>> = OnceLock::new();
+        let (table, text) = match self {
+            Splines::Paper => (&PAPER, include_str!("../../data/lambda.json")),
+            Splines::Fine => (&FINE, include_str!("../../data/lambda-fine.json")),
+        };
+        table
+            .get_or_init(|| LambdaTable::from_json(text))
             .as_ref()
             .map_err(Clone::clone)
+    }
+}
+
+impl LambdaTable {
+    /// The table of the paper's splines, [`Splines::Paper`].
+    ///
+    /// # Errors
+    /// Those of [`Splines::table`].
+    pub fn embedded() -> Result<&'static LambdaTable, Error> {
+        Splines::Paper.table()
     }
 
     /// A table of the given entries, with their digest.
@@ -207,16 +234,14 @@ impl LambdaTable {
                 entry.lambda_r2,
                 entry.phi,
             ];
-            std::iter::once(entry.valence as u64).chain(
-                entry
-                    .knots
-                    .values()
-                    .into_iter()
-                    .chain(entry.f2)
-                    .chain(entry.f3)
-                    .chain(featured)
-                    .map(f64::to_bits),
-            )
+            // those of the paper's knots are not stored either
+            let singles = Some(entry.knots.singles).filter(|singles| *singles != LambdaKnots::SINGLES);
+            let singles = singles.into_iter().flatten().map(|count| count as u64);
+            let coefficients = entry.f2.iter().chain(&entry.f3).copied();
+            let numbers = entry.knots.values().into_iter().chain(coefficients).chain(featured);
+            std::iter::once(entry.valence as u64)
+                .chain(numbers.map(f64::to_bits))
+                .chain(singles)
         });
         let hash = words
             .flat_map(u64::to_le_bytes)
@@ -287,7 +312,7 @@ impl LambdaEntry {
     /// [`Knots`](Refused::Knots) or [`Coefficients`](Refused::Coefficients) if the entry's numbers are not a
     /// spline.
     pub fn f2_spline(&self) -> Result<Spline, Error> {
-        Ok(Spline::new(self.knots.knots()?, self.f2.to_vec())?)
+        Ok(Spline::new(self.knots.knots()?, self.f2.clone())?)
     }
 
     /// The spline of f3; at valence 4 only an approximation of mu.
@@ -296,7 +321,7 @@ impl LambdaEntry {
     /// [`Knots`](Refused::Knots) or [`Coefficients`](Refused::Coefficients) if the entry's numbers are not a
     /// spline.
     pub fn f3_spline(&self) -> Result<Spline, Error> {
-        Ok(Spline::new(self.knots.knots()?, self.f3.to_vec())?)
+        Ok(Spline::new(self.knots.knots()?, self.f3.clone())?)
     }
 
     fn validate(&self) -> Result<(), Error> {
@@ -356,14 +381,15 @@ mod tests {
             c: 0.3536,
             d: 0.55,
             e: 0.9,
+            singles: LambdaKnots::SINGLES,
         };
         let values = knots.knots().unwrap().values().to_vec();
         let greville = |i: usize| (values[i + 1] + values[i + 2] + values[i + 3]) / 3.0;
         LambdaEntry {
             valence,
             knots,
-            f2: std::array::from_fn(|i| greville(i) / 2.0),
-            f3: std::array::from_fn(|i| greville(i) / 3.0),
+            f2: (0..17).map(|i| greville(i) / 2.0).collect(),
+            f3: (0..17).map(|i| greville(i) / 3.0).collect(),
             lambda_optimal: 0.5,
             lambda_l: 0.3536,
             lambda_r1: 0.2,

@@ -129,6 +129,7 @@ pub fn choose_knots(
                     c: c.lambda,
                     d: d.lambda,
                     e: ends.1,
+                    singles: LambdaKnots::SINGLES,
                 };
                 let kinks = [b, c, d].map(|candidate| candidate.source != Source::Default);
                 let Some(residual) = residual(&knots, kinks, samples, optimum)? else {

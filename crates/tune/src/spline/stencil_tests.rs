@@ -107,6 +107,7 @@ fn stencils_stay_feasible_along_all_lambda() {
             c: relaxation.lambda_l(),
             d: lambda_d,
             e: 0.9,
+            singles: LambdaKnots::SINGLES,
         };
         // the wish: smooth, and outside of the domain at many lambdas; the samples are the nearest feasible
         // stencils

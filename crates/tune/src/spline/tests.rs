@@ -10,6 +10,7 @@ pub(super) const KNOTS: LambdaKnots = LambdaKnots {
     c: 0.3536,
     d: 0.55,
     e: 0.9,
+    singles: LambdaKnots::SINGLES,
 };
 
 /// The paper's 100 sample values.

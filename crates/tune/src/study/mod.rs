@@ -6,10 +6,12 @@
 //! themselves, at lambdas other than those at which the fit imposed its bounds.
 
 mod admissible;
+mod fine;
 mod recommended;
 mod sharp;
 
 pub use eigenring_scheme::lambda::{LAMBDA_A, LAMBDA_M, LAMBDA_R1};
+pub use fine::ENOUGH;
 pub use recommended::second_ring_convexity;
 
 use crate::global::{Global, global};
@@ -18,6 +20,7 @@ use crate::spline::{self, FitError, Slot, Source, StencilFit, StencilSample, fit
 use crate::sweep::{self, BranchSample, LambdaSample, Options, Range, branch};
 use admissible::Admissible;
 use eigenring_scheme::lambda::{LambdaEntry, LambdaKnots, PAPER_TABLE_1, PaperRow, Relaxation};
+use fine::Fine;
 use serde::{Deserialize, Serialize};
 use sharp::Sharp;
 
@@ -55,6 +58,8 @@ pub enum Knots {
     /// Those candidates, and that fit, with which the objective of the splines exceeds that of the samples
     /// least: the maximum of `E/E_sample - 1` instead of the squares of distances in f2 and f3.
     Sharp,
+    /// The detected ones, with more single knots where the splines lose more than [`ENOUGH`].
+    Fine,
 }
 
 /// The tabulated results of one valence.
@@ -110,8 +115,8 @@ pub struct KnotCandidate {
 /// A fitted spline.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SplineTable {
-    /// The 17 coefficients.
-    pub coefficients: [f64; LambdaKnots::DIMENSION],
+    /// The coefficients: 17 but with finer knots.
+    pub coefficients: Vec<f64>,
     /// Largest distance from a sample.
     pub max_residual: f64,
     /// The lambda of that sample.
@@ -243,7 +248,12 @@ impl Study {
             lambda_r2: range.end,
             phi: options.phi,
         };
-        let (values, kinks, fit) = if knots == Knots::Sharp {
+        let (values, kinks, fit) = if knots == Knots::Fine {
+            let fine = Fine::new(valence, &samples, options)?;
+            let again = |values: &LambdaKnots| fit_feasible(values, kinks, &labelled, &fixed, range, &admissible);
+            let (values, fit) = fine.fit(values, fit, again, entry).map_err(failed)?;
+            (values, kinks, fit)
+        } else if knots == Knots::Sharp {
             let sharp = Sharp {
                 samples: &samples,
                 labelled: &labelled,
@@ -309,8 +319,8 @@ impl Study {
         LambdaEntry {
             valence: self.valence,
             knots: self.knots.values,
-            f2: self.f2.coefficients,
-            f3: self.f3.coefficients,
+            f2: self.f2.coefficients.clone(),
+            f3: self.f3.coefficients.clone(),
             lambda_optimal: self.global.optimum().lambda,
             lambda_l: self.lambda_l,
             lambda_r1: LAMBDA_R1,
@@ -410,11 +420,9 @@ impl Study {
     }
 }
 
-fn coefficients(fit: &spline::Fit) -> [f64; LambdaKnots::DIMENSION] {
-    std::array::from_fn(|i| {
-        let coefficient = fit.spline.coefficients()[i];
-        if coefficient.abs() < ZERO { 0.0 } else { coefficient }
-    })
+fn coefficients(fit: &spline::Fit) -> Vec<f64> {
+    let rounded = |&coefficient: &f64| if coefficient.abs() < ZERO { 0.0 } else { coefficient };
+    fit.spline.coefficients().iter().map(rounded).collect()
 }
 
 fn objective(valence: usize, lambda: f64, options: &Options) -> Result<Objective, Error> {
