@@ -64,7 +64,7 @@ pub struct Limits {
 }
 
 impl Default for Limits {
-    /// Empirical: at lambda_C*, N = 5 to 12, no box is given up with epsilon = 1e-6.
+    /// Empirical: at lambda_C*, N = 5 to 20, no box is given up with epsilon = 1e-6.
     fn default() -> Self {
         Limits {
             width: 1e-7,
