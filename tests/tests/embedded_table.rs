@@ -2,8 +2,8 @@
 //! for every lambda of [0.15, 0.9], and meet the optimum they were fitted to. **Oracles**:
 //! `results/lambda/tables.json` and the tables beside it, written by the same command; the constraints of Ma,
 //! Wang and Ma (2023, section 3.2) evaluated on the stencils and their spectra, never on the curves that
-//! bounded the fit; the paper's Table 1. The finer splines lose less than a hundredth against stencils that are
-//! tuned on their own, at the lambdas of the fit and between them.
+//! bounded the fit; the paper's Table 1. The finer splines lose less than a hundredth against stencils that
+//! are tuned on their own, at the lambdas of the fit and between them.
 //!
 //! Until the table has been written there is nothing to check, and the tests say so; a table that is there
 //! must be whole.

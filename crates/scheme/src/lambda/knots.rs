@@ -62,8 +62,8 @@ impl LambdaKnots {
     /// The spline space.
     ///
     /// # Errors
-    /// [`Error::Knots`] unless `a < b < c < d < e` are finite, with at most [`LambdaKnots::MOST_SINGLES`] single
-    /// knots between two of them, all of which are different doubles.
+    /// [`Error::Knots`] unless `a < b < c < d < e` are finite, with at most [`LambdaKnots::MOST_SINGLES`]
+    /// single knots between two of them, all of which are different doubles.
     pub fn knots(&self) -> Result<Knots, Error> {
         let [a, b, c, d, e] = self.values();
         let mut knots = vec![a; Self::DEGREE + 1];

@@ -1,11 +1,11 @@
 //! The embedded spline stencils: f2 and f3 as functions of lambda, for each tabulated valence.
 //!
 //! Evaluation is Eq. 22 of Ma, Wang and Ma (2023), `f_i(lambda) = b(lambda)^T C_i` with the cubic basis on
-//! [`LambdaKnots`]. There are two tables, [`Splines`]: that of the paper's 17 coefficients, and a finer one for
-//! whoever asks for it. The files `data/lambda*.json` are written by the tool itself and never by hand; their
-//! `digest` covers every number in them, so that a changed file is refused instead of giving other stencils. At valence
-//! 4, block 2 is diagonal with f3 on its diagonal, so f3 is `mu = s lambda^2` by formula; the tabulated
-//! spline only approximates it and is kept to be compared.
+//! [`LambdaKnots`]. There are two tables, [`Splines`]: that of the paper's 17 coefficients, and a finer one
+//! for whoever asks for it. The files `data/lambda*.json` are written by the tool itself and never by hand;
+//! their `digest` covers every number in them, so that a changed file is refused instead of giving other
+//! stencils. At valence 4, block 2 is diagonal with f3 on its diagonal, so f3 is `mu = s lambda^2` by
+//! formula; the tabulated spline only approximates it and is kept to be compared.
 
 use super::{LambdaKnots, Relaxation};
 use crate::Error;

@@ -3,9 +3,9 @@
 //! The paper has one single knot between two neighbouring triple ones. Between them the tuned stencils are
 //! smooth but where the set of active bounds changes a third time or more often. There the splines of the
 //! paper lose up to a tenth of the objective; so single knots are added, one after the other, in the
-//! interval in which most is lost at the time, until less than [`ENOUGH`] is lost at every sample or an interval
-//! has almost as many knots as samples. Interpolation at lambda_C* and the bounds are those of the usual
-//! fit.
+//! interval in which most is lost at the time, until less than [`ENOUGH`] is lost at every sample or an
+//! interval has almost as many knots as samples. Interpolation at lambda_C* and the bounds are those of the
+//! usual fit.
 
 use super::{TINY, objective};
 use crate::objective::Objective;
