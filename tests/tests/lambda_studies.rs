@@ -154,3 +154,48 @@ fn splines_of_large_valences_are_near_the_best() {
         assert!(sample_lambdas(n).unwrap().len() == 100);
     }
 }
+
+/// What splines with 17 coefficients lose at the samples of the tables is as stored, and never more than with
+/// the usual fit or the paper's knots.
+#[test]
+fn sharper_splines_lose_what_is_stored() {
+    let kinds = rows("sharp.csv");
+    let coefficients = |name: &str, n: usize| -> Vec<f64> {
+        let row = rows(name).into_iter().find(|row| valence(row) == n).unwrap();
+        (1..=17).map(|i| number(&row, &format!("C{i}"))).collect()
+    };
+    let samples = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../results/lambda/samples.csv"));
+    let samples = samples.expect("the samples of the tables");
+    for n in 3..=20 {
+        let of = |kind: &str| kinds.iter().find(|row| valence(row) == n && row["knots"] == kind);
+        let sharp = of("sharp").unwrap();
+        let usual = LambdaTable::embedded().unwrap().entry(n).unwrap();
+        let mut entry = usual.clone();
+        (entry.knots.b, entry.knots.d) = (number(sharp, "lambda_b"), number(sharp, "lambda_d"));
+        (entry.f2, entry.f3) = (coefficients("sharp_f2.csv", n), coefficients("sharp_f3.csv", n));
+        let (mut overall, mut ours, mut theirs) = (0.0_f64, 0.0_f64, 0.0_f64);
+        for line in samples.lines().skip(1) {
+            let cells: Vec<f64> = line.split(',').take(6).map(|cell| cell.parse().unwrap()).collect();
+            let (lambda, tuned) = (cells[1], cells[5]);
+            // nothing is left to lose at N = 4, lambda = 1/2
+            if cells[0] != n as f64 || tuned < 1e-9 {
+                continue;
+            }
+            let objective = objective(n, lambda, Settings::default());
+            let lost = |(f2, f3)| objective.value(f2, f3).unwrap() / tuned - 1.0;
+            let [own, of_usual] = [&entry, usual].map(|entry| lost(entry.weights(lambda).unwrap()));
+            overall = overall.max(own);
+            if (usual.lambda_r1..=usual.lambda_r2).contains(&lambda) {
+                (ours, theirs) = (ours.max(own), theirs.max(of_usual));
+            }
+        }
+        let stored = number(sharp, "excess_overall");
+        assert!((overall - stored).abs() <= 1e-6 * stored, "N = {n}: {overall} {stored}");
+        assert!(ours <= theirs + 1e-9, "N = {n}: {ours} {theirs}");
+        let usual_fit = number(of("detected").unwrap(), "excess");
+        assert!(
+            (theirs - usual_fit).abs() <= 1e-6 * usual_fit,
+            "N = {n}: {theirs} {usual_fit}"
+        );
+    }
+}

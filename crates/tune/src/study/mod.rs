@@ -270,7 +270,8 @@ impl Study {
                 lambdas
             };
             let [b, d] = [free("b", |row| row.lambda_b), free("d", |row| row.lambda_d)];
-            let found = sharp.fit(values, kinks, fit, [&b, &d]);
+            let paper = |row: &PaperRow| (with_triple_knots(row.knots(), range, lambda_l), [true; 3]);
+            let found = sharp.fit((values, kinks, fit), paper_row(valence).map(paper), [&b, &d]);
             (found.knots, found.kinks, found.fit)
         } else {
             (values, kinks, fit)
@@ -506,6 +507,16 @@ fn label(samples: &[BranchSample]) -> Vec<StencilSample> {
     labelled
 }
 
+/// The triple knots b and d of `knots` in a range, with the exact lambda_l.
+fn with_triple_knots(knots: LambdaKnots, range: &Range, lambda_l: f64) -> LambdaKnots {
+    LambdaKnots {
+        a: range.start,
+        c: lambda_l,
+        e: range.end,
+        ..knots
+    }
+}
+
 type Choice = (LambdaKnots, [bool; 3], Vec<KnotCandidate>);
 
 fn choose(
@@ -543,12 +554,7 @@ fn choose(
     Ok(match paper_row(valence).filter(|_| knots == Knots::Paper) {
         // the printed digits of lambda_c are replaced by the exact value; every tabulated knot may be a kink
         Some(row) => {
-            let values = LambdaKnots {
-                a: range.start,
-                c: relaxation.lambda_l(),
-                e: range.end,
-                ..row.knots()
-            };
+            let values = with_triple_knots(row.knots(), range, relaxation.lambda_l());
             (values, [true; 3], candidates)
         }
         None => (choice.knots, choice.kinks, candidates),

@@ -7,15 +7,15 @@
 //! * f2 is fitted to the best values beside the fitted f3, not beside the tuned one;
 //! * the weights of samples grow with what the spline loses there, round by round (the rule of Lawson 1961
 //!   for least maxima), and the best round is kept;
-//! * the triple knots b and d move to whichever lose least, of the kinks and of the paper's, one after the
-//!   other.
+//! * the triple knots b and d move to whichever lose least, of the kinks and of the paper's, both together or
+//!   one after the other, with the weights above or with equal ones.
 //!
 //! Interpolation at lambda_C* and the bounds are those of the usual fit.
 
 use super::admissible::Admissible;
 use super::{TINY, fit_feasible, objective};
 use crate::objective::Objective;
-use crate::spline::{self, Band, FitError, StencilBounds, StencilFit, StencilSample};
+use crate::spline::{Band, FitError, StencilBounds, StencilFit, StencilSample};
 use crate::sweep::{BranchSample, Options, Range};
 use eigenring_scheme::lambda::{LAMBDA_R1, LambdaKnots};
 
@@ -110,9 +110,14 @@ impl Place<'_> {
 }
 
 impl Sharp<'_> {
-    /// The best splines with the knots of the usual fit, or with one of the given lambdas in the place of b
-    /// and d: at least as good as the usual fit.
-    pub fn fit(&self, knots: LambdaKnots, kinks: [bool; 3], fit: StencilFit, free: [&[f64]; 2]) -> Found {
+    /// The best splines with the knots of the usual fit or others, or with one of the given lambdas in the
+    /// place of b and d: at least as good as the usual fits with either knots.
+    pub fn fit(
+        &self,
+        (knots, kinks, fit): (LambdaKnots, [bool; 3], StencilFit),
+        others: Option<(LambdaKnots, [bool; 3])>,
+        free: [&[f64]; 2],
+    ) -> Found {
         let places: Vec<Place<'_>> = self.samples.iter().map(|sample| self.place(sample)).collect();
         let costs: Vec<[f64; 2]> = places.iter().map(Place::costs).collect();
         let losses = self.losses(&fit, &places);
@@ -131,6 +136,9 @@ impl Sharp<'_> {
             }
         };
         consider(&mut best, knots, kinks);
+        if let Some((knots, kinks)) = others {
+            consider(&mut best, knots, kinks);
+        }
         for (slot, lambdas) in free.into_iter().enumerate() {
             for &lambda in lambdas {
                 let (mut knots, mut kinks) = (best.knots, best.kinks);
@@ -152,15 +160,23 @@ impl Sharp<'_> {
     fn losses(&self, fit: &StencilFit, places: &[Place<'_>]) -> Vec<f64> {
         let loss = |place: &Place<'_>| {
             let lambda = place.sample.lambda;
-            let at = |spline: &spline::Fit| spline.spline.value(lambda).unwrap_or(f64::NAN);
+            let f2 = fit.f2.spline.value(lambda).unwrap_or(f64::NAN);
             let counts = (LAMBDA_R1..=self.end).contains(&lambda);
             if counts {
-                place.loss(at(&fit.f2), at(&fit.f3)).max(0.0)
+                place.loss(f2, self.f3(fit, place)).max(0.0)
             } else {
                 0.0
             }
         };
         places.iter().map(loss).collect()
+    }
+
+    /// A fit's f3 at a sample: mu at valence 4, whatever the spline says.
+    fn f3(&self, fit: &StencilFit, place: &Place<'_>) -> f64 {
+        match self.admissible.relaxation().valence() {
+            4 => place.sample.minimum.f3,
+            _ => fit.f3.spline.value(place.sample.lambda).unwrap_or(f64::NAN),
+        }
     }
 
     fn place<'b>(&self, sample: &'b BranchSample) -> Place<'b> {
@@ -185,8 +201,9 @@ impl Sharp<'_> {
         let mut samples = self.labelled.to_vec();
         let mut factors = vec![1.0; samples.len()];
         let mut best: Option<Found> = None;
-        for _ in 0..ROUNDS {
-            for which in [0, 1] {
+        for round in 0..=ROUNDS {
+            // equal weights come first
+            for which in if round == 0 { 0..0 } else { 0..2 } {
                 let raised = costs.iter().zip(&factors).map(|(cost, factor)| cost[which] * factor);
                 let largest = raised.clone().fold(f64::MIN_POSITIVE, f64::max);
                 for (sample, cost) in samples.iter_mut().zip(raised) {
@@ -196,8 +213,7 @@ impl Sharp<'_> {
             let fit = fit_feasible(&knots, kinks, &samples, self.fixed, self.range, self.admissible)?;
             let losses = self.losses(&fit, places);
             for (place, sample) in places.iter().zip(&mut samples) {
-                let f3 = fit.f3.spline.value(place.sample.lambda).unwrap_or(f64::NAN);
-                sample.f2 = place.best_f2(f3);
+                sample.f2 = place.best_f2(self.f3(&fit, place));
             }
             let loss = losses.iter().copied().fold(0.0, f64::max);
             if best.as_ref().is_none_or(|best| loss < best.loss) {
@@ -208,12 +224,17 @@ impl Sharp<'_> {
                     loss,
                 });
             }
-            if !(loss > 0.0 && loss.is_finite()) {
+            if loss <= 0.0 {
                 break;
             }
+            if round == 0 {
+                continue;
+            }
             for (factor, own) in factors.iter_mut().zip(&losses) {
-                // half the rule's power and at most halved, so that weights change slowly; empirical
-                *factor *= (own / loss).sqrt().max(0.5);
+                // half the rule's power and at most halved, so that weights change slowly; empirical. A loss is
+                // infinite where the map folds
+                let part = if *own == loss { 1.0 } else { own / loss };
+                *factor *= part.sqrt().max(0.5);
             }
         }
         Ok(best.expect("there is a round"))
