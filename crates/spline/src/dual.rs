@@ -31,6 +31,7 @@ impl<S: Scalar + Copy, const D: usize> Dual<S, D> {
         dual
     }
 
+    #[inline]
     fn zip(self, other: Self, value: S, part: impl Fn(S, S) -> S) -> Self {
         let mut parts = self.parts;
         for (p, q) in parts.iter_mut().zip(other.parts) {
@@ -42,6 +43,7 @@ impl<S: Scalar + Copy, const D: usize> Dual<S, D> {
 
 impl<S: Scalar + Copy, const D: usize> Add for Dual<S, D> {
     type Output = Self;
+    #[inline]
     fn add(self, other: Self) -> Self {
         self.zip(other, self.value + other.value, |p, q| p + q)
     }
@@ -49,6 +51,7 @@ impl<S: Scalar + Copy, const D: usize> Add for Dual<S, D> {
 
 impl<S: Scalar + Copy, const D: usize> Sub for Dual<S, D> {
     type Output = Self;
+    #[inline]
     fn sub(self, other: Self) -> Self {
         self.zip(other, self.value - other.value, |p, q| p - q)
     }
@@ -56,6 +59,7 @@ impl<S: Scalar + Copy, const D: usize> Sub for Dual<S, D> {
 
 impl<S: Scalar + Copy, const D: usize> Mul for Dual<S, D> {
     type Output = Self;
+    #[inline]
     #[expect(clippy::suspicious_arithmetic_impl, reason = "the product rule adds")]
     fn mul(self, other: Self) -> Self {
         let (a, b) = (self.value, other.value);
@@ -65,6 +69,7 @@ impl<S: Scalar + Copy, const D: usize> Mul for Dual<S, D> {
 
 impl<S: Scalar + Copy, const D: usize> Div for Dual<S, D> {
     type Output = Self;
+    #[inline]
     #[expect(
         clippy::suspicious_arithmetic_impl,
         reason = "the quotient rule subtracts and multiplies"
@@ -77,6 +82,7 @@ impl<S: Scalar + Copy, const D: usize> Div for Dual<S, D> {
 
 impl<S: Scalar + Copy, const D: usize> Neg for Dual<S, D> {
     type Output = Self;
+    #[inline]
     fn neg(self) -> Self {
         Dual {
             value: -self.value,
@@ -86,12 +92,14 @@ impl<S: Scalar + Copy, const D: usize> Neg for Dual<S, D> {
 }
 
 impl<S: Scalar + Copy, const D: usize> AddAssign for Dual<S, D> {
+    #[inline]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
 impl<S: Scalar + Copy, const D: usize> SubAssign for Dual<S, D> {
+    #[inline]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }

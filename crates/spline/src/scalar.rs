@@ -9,6 +9,7 @@
 
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
+use std::cell::Cell;
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -90,29 +91,48 @@ impl Scalar for f64 {
     }
 
     /// Folded into the first octant first, so that symmetric turns give equal magnitudes, and multiples of a
-    /// quarter turn and of a sixth give 0, 1/2 and 1 exactly.
+    /// quarter turn and of a sixth give 0, 1/2 and 1 exactly. Each thread remembers some: tuning asks for the
+    /// same few a million times.
     fn cos_turn(k: i64, n: i64) -> Self {
-        let n = n.unsigned_abs() as u128;
-        // the turn in units of 1/(12 n), folded to [0, 1/2] by evenness
-        let mut turn = (k.unsigned_abs() as u128 % n) * 12;
-        if turn > 6 * n {
-            turn = 12 * n - turn;
-        }
-        let (sign, turn) = if turn > 3 * n {
-            (-1.0, 6 * n - turn)
-        } else {
-            (1.0, turn)
-        };
-        let angle = |turn: u128| std::f64::consts::TAU * (turn as f64 / (12 * n) as f64);
-        sign * if turn == 3 * n {
-            0.0
-        } else if turn == 2 * n {
-            0.5
-        } else if 2 * turn > 3 * n {
-            angle(3 * n - turn).sin()
-        } else {
-            angle(turn).cos()
-        }
+        KNOWN_TURNS.with(|known| {
+            let slot = &known[(k.wrapping_mul(31).wrapping_add(n) as usize) % known.len()];
+            let (of, parts, value) = slot.get();
+            if (of, parts) == (k, n) {
+                return value;
+            }
+            let value = cosine_of_turn(k, n);
+            slot.set((k, n, value));
+            value
+        })
+    }
+}
+
+thread_local! {
+    /// k, n and `cos(2 pi k / n)`; at first n = 0, which nobody asks for.
+    static KNOWN_TURNS: [Cell<(i64, i64, f64)>; 64] = const { [const { Cell::new((i64::MIN, 0, f64::NAN)) }; 64] };
+}
+
+fn cosine_of_turn(k: i64, n: i64) -> f64 {
+    let n = n.unsigned_abs() as u128;
+    // the turn in units of 1/(12 n), folded to [0, 1/2] by evenness
+    let mut turn = (k.unsigned_abs() as u128 % n) * 12;
+    if turn > 6 * n {
+        turn = 12 * n - turn;
+    }
+    let (sign, turn) = if turn > 3 * n {
+        (-1.0, 6 * n - turn)
+    } else {
+        (1.0, turn)
+    };
+    let angle = |turn: u128| std::f64::consts::TAU * (turn as f64 / (12 * n) as f64);
+    sign * if turn == 3 * n {
+        0.0
+    } else if turn == 2 * n {
+        0.5
+    } else if 2 * turn > 3 * n {
+        angle(3 * n - turn).sin()
+    } else {
+        angle(turn).cos()
     }
 }
 
