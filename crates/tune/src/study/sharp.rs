@@ -231,8 +231,8 @@ impl Sharp<'_> {
                 continue;
             }
             for (factor, own) in factors.iter_mut().zip(&losses) {
-                // half the rule's power and at most halved, so that weights change slowly; empirical. A loss is
-                // infinite where the map folds
+                // half the rule's power and at most halved, so that weights change slowly; empirical. A loss
+                // is infinite where the map folds
                 let part = if *own == loss { 1.0 } else { own / loss };
                 *factor *= part.sqrt().max(0.5);
             }
