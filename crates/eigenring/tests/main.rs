@@ -13,6 +13,7 @@ mod on_demand;
 mod own_matrices;
 mod plot;
 mod report;
+mod stored_certificates;
 mod surfaces;
 mod tables;
 mod tension;

@@ -13,8 +13,7 @@ use crate::space::{Depth, Ends, Space};
 use crate::tables::{Around, bicubic};
 use eigenring_nonuniform::{FirstLevel, Outside, Refinement};
 use eigenring_scheme::{Definition, Spec};
-use eigenring_surface::features::edge;
-use eigenring_surface::{Boundary, Mesh, Refiner, Rules, Topology, shapes};
+use eigenring_surface::{Boundary, Mesh, Refiner, Rules, shapes};
 
 fn rules(name: &str) -> Rules {
     Rules::new(Definition::Family(name.parse::<Spec>().expect("a scheme")))
@@ -96,16 +95,7 @@ fn energies_with_knot_intervals_are_those_of_the_next_nets() {
         (Nurss, [3.0, 1.0]),
         (EigenPolyhedron, [1.5, 1.0]),
     ] {
-        let mut mesh = shapes::fan(5);
-        let topology = Topology::new(&mesh).expect("a surface");
-        // the intervals of the spokes of the centre in turn
-        let centre = (0..topology.vertex_count() as u32).find(|&v| topology.fan(v).spokes.len() == 5);
-        let spokes = topology.fan(centre.expect("a centre")).spokes;
-        let knot = |(i, &spoke): (usize, &u32)| {
-            let [a, b] = topology.ends(spoke);
-            (edge(a, b), intervals[i % 2])
-        };
-        mesh.features.knots = spokes.iter().enumerate().map(knot).collect();
+        let mesh = shapes::uneven_fan(5, &intervals);
         let mut refinement = Refinement::new(&mesh, scheme, Outside::Error).expect("a net");
         if refinement.hybrid().is_none() {
             // until four edges of a spoke have one interval

@@ -1,8 +1,9 @@
-//! Schemes and meshes.
+//! Schemes, meshes and options.
 
+use eigenring_iga::{Dirichlet, Domain, Ends, Options, Study};
+use eigenring_nonuniform::{FirstLevel, Outside, Scheme};
 use eigenring_scheme::{Definition, Spec};
-use eigenring_surface::features::edge;
-use eigenring_surface::{Mesh, Point3, Rules, Topology, shapes};
+use eigenring_surface::{Mesh, Point3, Rules};
 
 pub fn rules(name: &str) -> Rules {
     Rules::new(Definition::Family(name.parse::<Spec>().expect("a scheme")))
@@ -34,17 +35,24 @@ pub fn squares(n: u32, corners: &[[f64; 2]]) -> Mesh {
     Mesh::of_quads(points, faces)
 }
 
-/// A fan whose spokes have these intervals, one after another, at the centre; the outer edges have 1.
-pub fn uneven(n: usize, intervals: &[f64]) -> Mesh {
-    let mut mesh = shapes::fan(n);
-    let topology = Topology::new(&mesh).expect("a surface");
-    let centre = (0..topology.vertex_count() as u32)
-        .find(|&v| topology.fan(v).last.is_none() && topology.fan(v).spokes.len() == n && n != 4)
-        .expect("a centre");
-    let spokes = topology.fan(centre).spokes;
-    let knots = spokes.iter().zip(intervals.iter().cycle());
-    mesh.features.knots = knots
-        .map(|(&spoke, &d)| (edge(centre, topology.head(spoke)), d))
-        .collect();
-    mesh
+/// Nitsche's terms in the place of values at the boundary.
+pub fn nitsche() -> Options {
+    Options {
+        dirichlet: Dirichlet::Nitsche,
+        ..Options::default()
+    }
+}
+
+/// Natural ends.
+pub fn natural() -> Options {
+    Options {
+        ends: Ends::Natural,
+        ..Options::default()
+    }
+}
+
+/// Studies of HNUSS in the plane.
+pub fn of_hnuss(mesh: &Mesh) -> Study<'static> {
+    let scheme = Scheme::Hnuss(FirstLevel::Improved);
+    Study::with_intervals(mesh, scheme, Outside::Error, Domain::Planar).expect("a study")
 }

@@ -1,19 +1,14 @@
 //! The spaces of HNUSS: linear functions at equal and unequal intervals, rates, what is refused.
 
-use crate::common::{uneven, warped};
-use eigenring_iga::{Dirichlet, Domain, Ends, Error, Norms, Options, Problem, Solver, Study, solution};
+use crate::common::{natural, nitsche, of_hnuss, warped};
+use eigenring_iga::{Domain, Error, Norms, Options, Problem, Solver, Study, solution};
 use eigenring_nonuniform::{FirstLevel, Outside, Scheme};
+use eigenring_surface::shapes::uneven_fan;
 use eigenring_surface::{Mesh, shapes};
 
 fn errors(mesh: &Mesh, name: &str, problem: Problem, levels: std::ops::Range<usize>, options: &Options) -> Vec<Norms> {
     let u = solution::named(name).expect("a solution");
-    let study = Study::with_intervals(
-        mesh,
-        Scheme::Hnuss(FirstLevel::Improved),
-        Outside::Error,
-        Domain::Planar,
-    )
-    .expect("a study");
+    let study = of_hnuss(mesh);
     levels
         .map(|level| study.level(level, problem, &u, options).expect("an outcome").error)
         .collect()
@@ -24,18 +19,10 @@ const SETS: [&[f64]; 3] = [&[1.0], &[3.0, 1.0], &[3.0, 1.0, 1.7]];
 
 #[test]
 fn linear_functions_are_reproduced_at_equal_and_unequal_intervals() {
-    let nitsche = Options {
-        dirichlet: Dirichlet::Nitsche,
-        ..Options::default()
-    };
-    let natural = Options {
-        ends: Ends::Natural,
-        ..Options::default()
-    };
     for (n, set) in [3, 5, 6, 8].into_iter().flat_map(|n| SETS.map(|set| (n, set))) {
-        let mesh = warped(uneven(n, set));
+        let mesh = warped(uneven_fan(n, set));
         // the rules around an n-gon are the same from level 2 on
-        for (levels, ends) in [(0..3, Options::default()), (0..1, natural), (1..2, nitsche)] {
+        for (levels, ends) in [(0..3, Options::default()), (0..1, natural()), (1..2, nitsche())] {
             let options = Options {
                 depth: Some(24),
                 ..ends
@@ -60,7 +47,7 @@ fn few_halvings_fail_the_patch_test() {
             scaled,
             ..Options::default()
         };
-        errors(&uneven(5, SETS[1]), "lin", Problem::Poisson, 1..2, &options)[0].h1
+        errors(&uneven_fan(5, SETS[1]), "lin", Problem::Poisson, 1..2, &options)[0].h1
     };
     let found = [4, 8, 16].map(|depth| h1(depth, false));
     for (found, range) in found.iter().zip([1e-3..1e-1, 1e-5..1e-3, 1e-11..1e-8]) {
@@ -105,21 +92,15 @@ fn closed_surfaces_and_projections_have_spaces_too() {
         coarse.l2 > 5.0 * fine.l2 && coarse.h1 > 3.0 * fine.h1,
         "{coarse:?} {fine:?}"
     );
-    let projected = errors(&uneven(5, SETS[2]), "exp", Problem::L2, 1..3, &Options::default());
+    let projected = errors(&uneven_fan(5, SETS[2]), "exp", Problem::L2, 1..3, &Options::default());
     assert!(projected[1].l2 < 0.25 * projected[0].l2, "{projected:?}");
 }
 
 #[test]
 fn what_hnuss_has_no_space_for_is_refused() {
     let u = solution::named("lin").expect("a solution");
-    let mesh = uneven(5, SETS[1]);
-    let study = Study::with_intervals(
-        &mesh,
-        Scheme::Hnuss(FirstLevel::Improved),
-        Outside::Error,
-        Domain::Planar,
-    )
-    .expect("a study");
+    let mesh = uneven_fan(5, SETS[1]);
+    let study = of_hnuss(&mesh);
     let plate = study.level(0, Problem::Biharmonic, &u, &Options::default());
     assert!(matches!(plate, Err(Error::Combination { .. })));
     let multigrid = Options {

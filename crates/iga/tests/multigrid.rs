@@ -1,8 +1,8 @@
 //! Multigrid against the factor: few iterations whatever the valence, the scheme and the level, the same
 //! solution, the same bits for any number of threads.
 
-use crate::common::rules;
-use eigenring_iga::{Dirichlet, Domain, Ends, Options, Outcome, Problem, Solver, Study, solution};
+use crate::common::{natural, nitsche, rules};
+use eigenring_iga::{Domain, Options, Outcome, Problem, Solver, Study, solution};
 use eigenring_surface::shapes;
 
 fn solved(n: usize, scheme: &str, level: usize, problem: Problem, options: Options, solver: Solver) -> Outcome {
@@ -45,17 +45,9 @@ fn few_iterations_give_the_solution_of_the_factor() {
 
 #[test]
 fn all_problems_have_nested_spaces() {
-    let natural = Options {
-        ends: Ends::Natural,
-        ..Options::default()
-    };
-    let nitsche = Options {
-        dirichlet: Dirichlet::Nitsche,
-        ..Options::default()
-    };
     for (problem, options) in [
-        (Problem::Poisson, natural),
-        (Problem::Poisson, nitsche),
+        (Problem::Poisson, natural()),
+        (Problem::Poisson, nitsche()),
         (Problem::Neumann, Options::default()),
         (Problem::Biharmonic, Options::default()),
     ] {

@@ -1,17 +1,10 @@
 //! Plates, fluxes, Nitsche's terms, closed surfaces.
 
-use crate::common::{rules, warped};
-use eigenring_iga::{Dirichlet, Domain, Ends, Error, Norms, Options, Problem, Study, solution};
+use crate::common::{natural, nitsche, rules, warped};
+use eigenring_iga::{Domain, Ends, Error, Norms, Options, Problem, Study, solution};
 use eigenring_scheme::Definition;
 use eigenring_scheme::user::{Reading, UserScheme};
 use eigenring_surface::{Mesh, Rules, shapes};
-
-fn nitsche() -> Options {
-    Options {
-        dirichlet: Dirichlet::Nitsche,
-        ..Options::default()
-    }
-}
 
 fn error(mesh: &Mesh, scheme: &str, name: &str, problem: Problem, level: usize, options: &Options) -> Norms {
     let (rules, u) = (rules(scheme), solution::named(name).expect("a solution"));
@@ -165,12 +158,8 @@ fn functions_outside_of_h2_carry_no_plate() {
 fn what_excludes_each_other_is_refused() {
     let rules = rules("catmull-clark");
     let u = solution::named("mix").expect("a solution");
-    let natural = Options {
-        ends: Ends::Natural,
-        ..Options::default()
-    };
     let plane = Study::new(&shapes::fan(5), &rules, Domain::Planar).expect("a study");
-    let plate = plane.level(0, Problem::Biharmonic, &u, &natural);
+    let plate = plane.level(0, Problem::Biharmonic, &u, &natural());
     assert!(matches!(plate, Err(Error::Combination { .. })));
     let closed = plane.level(0, Problem::LaplaceBeltrami, &u, &Options::default());
     assert!(matches!(closed, Err(Error::Open)));

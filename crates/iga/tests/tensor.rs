@@ -2,9 +2,8 @@
 //! Boor's recursion, a midpoint rule's worth of Gauss points in closed form, dense matrices. The eigenvalues
 //! on a square are the sums of those on an interval.
 
-use crate::common::{rules, squares};
+use crate::common::{of_hnuss, rules, squares};
 use eigenring_iga::{Domain, Membrane, Options, Spectrum, Study};
-use eigenring_nonuniform::{FirstLevel, Outside, Scheme};
 use eigenring_surface::features::edge;
 use eigenring_surface::{Mesh, Point3};
 use faer::{Mat, Side};
@@ -110,13 +109,7 @@ fn a_rectangle_with_knot_intervals_has_the_eigenvalues_of_tensor_splines() {
     let along = (1..columns).map(|i| (edge(at(i - 1, 0), at(i, 0)), breaks[0][i] - breaks[0][i - 1]));
     let across = (1..rows).map(|j| (edge(at(0, j - 1), at(0, j)), breaks[1][j] - breaks[1][j - 1]));
     mesh.features.knots = along.chain(across).collect();
-    let study = Study::with_intervals(
-        &mesh,
-        Scheme::Hnuss(FirstLevel::Improved),
-        Outside::Error,
-        Domain::Planar,
-    )
-    .expect("a study");
+    let study = of_hnuss(&mesh);
     for (membrane, held) in [(Membrane::Free, false), (Membrane::Held, true)] {
         for level in 0..2 {
             let found = study

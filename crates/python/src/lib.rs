@@ -5,6 +5,7 @@ mod at;
 mod failure;
 mod figure;
 mod foreign;
+mod limit_points;
 mod maps;
 mod mesh;
 mod proofs;
@@ -32,7 +33,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<maps::Sample>()?;
     module.add_class::<proofs::Certificate>()?;
     module.add_class::<mesh::Mesh>()?;
-    module.add_class::<mesh::Limits>()?;
+    module.add_class::<limit_points::Limits>()?;
     module.add_class::<figure::Figure>()?;
     module.add_class::<figure::Picture>()?;
     module.add_class::<tuning::Tuned>()?;

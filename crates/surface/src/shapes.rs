@@ -1,6 +1,7 @@
 //! Control meshes to begin with.
 
-use crate::Mesh;
+use crate::features::edge;
+use crate::{Mesh, Topology};
 use nalgebra::Point3;
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
@@ -333,6 +334,20 @@ pub fn fan(n: usize) -> Mesh {
         &mesh(points, (0..n).map(|i| vec![0, middle(i), at(i), middle(i + 1)])),
         2,
     )
+}
+
+/// [`fan`] with these knot intervals on the edges at its middle, in turn and counter-clockwise, repeated if there
+/// are fewer than n; strips of other edges have 1.
+pub fn uneven_fan(n: usize, intervals: &[f64]) -> Mesh {
+    let mut mesh = fan(n);
+    let topology = Topology::unchecked(&mesh);
+    // splitting keeps the numbers of vertices, of which the middle is the first
+    let spokes = topology.fan(0).spokes;
+    let knots = spokes.iter().zip(intervals.iter().cycle());
+    mesh.features.knots = knots
+        .map(|(&spoke, &interval)| (edge(0, topology.head(spoke)), interval))
+        .collect();
+    mesh
 }
 
 /// The unit square with inner vertices of valence 5, 3, 5, 3: a 4 x 3 grid with one edge turned, inner

@@ -11,6 +11,7 @@ use super::{children, patch};
 use crate::{Error, HybridNet};
 use eigenring_spectral::Matrix;
 use eigenring_surface::Topology;
+use std::sync::Arc;
 
 /// A bicubic piece: a tensor product B-spline on one knot span in each direction.
 #[derive(Clone, Debug)]
@@ -33,7 +34,7 @@ pub struct Element {
     /// The neighbourhoods of corners on n-gons with their points as combinations of the element's.
     corners: Vec<(Corner, Matrix<f64>)>,
     /// What is around a corner that is an extraordinary vertex.
-    vertex: Option<Box<VertexFan>>,
+    vertex: Option<Arc<VertexFan>>,
     halvings: usize,
 }
 
@@ -73,10 +74,11 @@ impl Element {
         }
     }
 
-    pub(super) fn at_vertex(fan: VertexFan) -> Self {
+    pub(super) fn at_vertex(fan: Arc<VertexFan>) -> Self {
         Element {
-            vertex: Some(Box::new(fan.clone())),
-            ..Element::of_pieces(fan.columns(), Vec::new())
+            columns: fan.columns(),
+            vertex: Some(fan),
+            ..Element::of_pieces(0, Vec::new())
         }
     }
 

@@ -14,12 +14,17 @@ use super::patch;
 use crate::{EigenPolyhedron, Error, Net, Scheme, Spokes, Star, eigen_polyhedron_step, nurss, nurss_step};
 use eigenring_spectral::{Block, Matrix};
 use eigenring_surface::Topology;
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Rings from which five of the next level follow.
 const RINGS: usize = 3;
 
-/// Multiplications by S after which rows are limits: its other eigenvalues are below 0.9, mostly by far.
+/// Multiplications by S after which rows are limits, if its other eigenvalues are at most [`SLOWEST`]: 0.9^400 is
+/// 5e-19.
 const LIMIT: usize = 400;
+const SLOWEST: f64 = 0.9;
 
 /// What the rules around a vertex give, its face being the first sector's.
 #[derive(Clone, Debug)]
@@ -73,6 +78,13 @@ impl VertexFan {
             ));
         }
         moduli.sort_by(|a, b| b.total_cmp(a));
+        if moduli[1] > SLOWEST {
+            return Err(Error::Range {
+                what: "subdominant eigenvalue of finite elements",
+                given: moduli[1].to_string(),
+                accepted: format!("at most {SLOWEST}: knot intervals of the spokes that differ less"),
+            });
+        }
         let topology = net.topology();
         let [vertices, edges] = [topology.vertex_count(), topology.edge_count()];
         let row = |&(i, a, b): &(usize, usize, usize)| -> usize {
@@ -235,15 +247,21 @@ fn is_stationary(net: &Net, spokes: &[u32]) -> bool {
 pub struct VertexElements<'a> {
     net: &'a Net,
     scheme: Scheme,
+    /// What is around vertices, by the bits of the intervals of their spokes: all faces there share it.
+    fans: RefCell<HashMap<Vec<u64>, Arc<VertexFan>>>,
 }
 
 impl<'a> VertexElements<'a> {
     /// Those of a net with two rings of quads beyond every element.
     pub fn new(net: &'a Net, scheme: Scheme) -> Self {
-        VertexElements { net, scheme }
+        VertexElements {
+            net,
+            scheme,
+            fans: RefCell::default(),
+        }
     }
 
-    fn fan(&self, spoke: u32) -> Result<VertexFan, Error> {
+    fn fan(&self, spoke: u32) -> Result<Arc<VertexFan>, Error> {
         let topology = self.net.topology();
         let mut spokes = vec![spoke];
         while let Some(next) = spokes
@@ -253,8 +271,14 @@ impl<'a> VertexElements<'a> {
         {
             spokes.push(next);
         }
-        let intervals = spokes.iter().map(|&spoke| self.net.interval(spoke)).collect();
-        VertexFan::new(self.scheme, intervals)
+        let intervals: Vec<f64> = spokes.iter().map(|&spoke| self.net.interval(spoke)).collect();
+        let key: Vec<u64> = intervals.iter().map(|d| d.to_bits()).collect();
+        if let Some(known) = self.fans.borrow().get(&key) {
+            return Ok(Arc::clone(known));
+        }
+        let fan = Arc::new(VertexFan::new(self.scheme, intervals)?);
+        self.fans.borrow_mut().insert(key, Arc::clone(&fan));
+        Ok(fan)
     }
 
     /// An element with its points; `None` if another extraordinary vertex, the end of the net or another

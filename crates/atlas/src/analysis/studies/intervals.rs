@@ -7,8 +7,7 @@ use crate::error::Error;
 use crate::figures::Drawing;
 use crate::schemes::Tuner;
 use eigenring_iga::{Options, Problem};
-use eigenring_surface::features::edge;
-use eigenring_surface::{Mesh, Topology, shapes};
+use eigenring_surface::{Mesh, shapes};
 
 const VALENCES: [usize; 3] = [3, 5, 6];
 
@@ -17,23 +16,6 @@ const SPOKES: [(&str, [f64; 2]); 2] = [("3/2 and 1", [1.5, 1.0]), ("3 and 1", [3
 
 /// Levels before the first: rules of NURSS and of eigen-polyhedra are stationary from then on.
 const BEFORE: usize = 2;
-
-/// A fan whose spokes have these intervals in turn; its outer edges have 1.
-fn fan(n: usize, intervals: [f64; 2]) -> Result<Mesh, Error> {
-    let mut mesh = shapes::fan(n);
-    let topology = Topology::new(&mesh).map_err(eigenring_surface::Error::from)?;
-    let centre = (0..topology.vertex_count() as u32).find(|&v| {
-        let fan = topology.fan(v);
-        fan.last.is_none() && fan.spokes.len() == n
-    });
-    let spokes = centre.map_or_else(Vec::new, |v| topology.fan(v).spokes);
-    let knot = |(spoke, d): (&u32, f64)| {
-        let [a, b] = topology.ends(*spoke);
-        (edge(a, b), d)
-    };
-    mesh.features.knots = spokes.iter().zip(intervals.into_iter().cycle()).map(knot).collect();
-    Ok(mesh)
-}
 
 fn study(levels: usize, spec: &'static str, title: &str, sets: usize, tuner: &Tuner<'_>) -> Result<Drawing, Error> {
     let mut table = errors_table();
@@ -65,7 +47,7 @@ fn study(levels: usize, spec: &'static str, title: &str, sets: usize, tuner: &Tu
             BEFORE,
         )?;
         for (spokes, intervals) in &SPOKES[..sets] {
-            let mesh = fan(n, *intervals)?;
+            let mesh = shapes::uneven_fan(n, intervals);
             run(&mesh, spokes, spec, format!("{title}, spokes {spokes}"), 0)?;
             run(&mesh, spokes, "hnuss", format!("HNUSS, spokes {spokes}"), BEFORE)?;
         }
