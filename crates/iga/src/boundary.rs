@@ -2,10 +2,11 @@
 
 use crate::Error;
 use crate::assembly::add;
+use crate::patch::{bicubic, with_intervals};
 use crate::solution::Solution;
 use crate::space::{Edge, Space};
 use crate::sparse::{Numbering, Sparse};
-use crate::tables::{bicubic, line_rule, with_intervals};
+use crate::tables::line_rule;
 use std::collections::BTreeMap;
 
 /// The factor of Nitsche's penalty: above the constant of the inverse inequality of cubics, and the errors do

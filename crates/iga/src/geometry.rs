@@ -6,8 +6,8 @@
 //! `grad u . e_i` and the Hessian `e_i^T H e_j + (grad u . n) II_ij`, II the second fundamental form. In the
 //! plane z = 0 the frame is the axes, and these are the ordinary derivatives.
 
+use crate::patch::Data;
 use crate::solution::Solution;
-use crate::tables::Jet;
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
@@ -30,7 +30,7 @@ pub(crate) struct Geometry {
     normal: [f64; 3],
     /// `J^-1` by rows.
     inverse: [[f64; 2]; 2],
-    /// `D^2 X` as ss, st, tt; zero unless asked for.
+    /// `D^2 X` as ss, st, tt; zero unless wanted.
     second: [[f64; 3]; 3],
 }
 
@@ -49,36 +49,10 @@ pub(crate) struct Irregular {
     pub value: f64,
 }
 
-/// Of the first coordinates of points the combinations by the first entries of jets, order by order: loops of
-/// known lengths, whose sums stay in registers.
-fn sums<const AXES: usize, const ORDERS: usize>(jets: &[Jet], points: &[[f64; 3]], d: &mut [[f64; 3]; 6]) {
-    let mut sums = [[0.0; ORDERS]; AXES];
-    for (jet, point) in jets.iter().zip(points) {
-        for axis in 0..AXES {
-            for order in 0..ORDERS {
-                sums[axis][order] += point[axis] * jet[order];
-            }
-        }
-    }
-    for axis in 0..AXES {
-        for order in 0..ORDERS {
-            d[order][axis] = sums[axis][order];
-        }
-    }
-}
-
 impl Geometry {
-    /// At a point where the functions have these jets. Second derivatives of the map are left out unless
-    /// wanted.
-    pub fn new(jets: &[Jet], points: &[[f64; 3]], weight: f64, planar: bool, second: bool) -> Result<Self, Irregular> {
-        let mut d = [[0.0; 3]; 6];
-        match (planar, second) {
-            (true, false) => sums::<2, 3>(jets, points, &mut d),
-            (true, true) => sums::<2, 6>(jets, points, &mut d),
-            (false, false) => sums::<3, 3>(jets, points, &mut d),
-            (false, true) => sums::<3, 6>(jets, points, &mut d),
-        }
-        let [x, xs, xt, ..] = d;
+    /// Where the map has this position and these derivatives, in the order of a [`Jet`](crate::patch::Jet).
+    pub fn new(map: &[Data; 6], weight: f64, planar: bool) -> Result<Self, Irregular> {
+        let [x, xs, xt, second @ ..] = map.map(|[_, x, y, z]| [x, y, z]);
         let (frame, normal, det) = if planar {
             let det = xs[0] * xt[1] - xs[1] * xt[0];
             ([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [0.0, 0.0, 1.0], det)
@@ -98,7 +72,7 @@ impl Geometry {
             frame,
             normal,
             inverse: [[j[1][1] / det, -j[0][1] / det], [-j[1][0] / det, j[0][0] / det]],
-            second: [d[3], d[4], d[5]],
+            second,
         })
     }
 
@@ -108,6 +82,7 @@ impl Geometry {
     }
 
     /// The gradient of a function with these derivatives in the parameters.
+    #[inline(always)]
     pub fn gradient(&self, s: f64, t: f64) -> [f64; 2] {
         let [a, b] = self.inverse;
         [s * a[0] + t * b[0], s * a[1] + t * b[1]]
@@ -120,11 +95,11 @@ impl Geometry {
         [form(0, 0), form(0, 1), form(1, 1)]
     }
 
-    /// The Hessian of a function with these derivatives and this gradient.
-    pub fn hessian(&self, v: &Jet, gradient: [f64; 2]) -> [f64; 3] {
+    /// The Hessian of a function with these second derivatives in the parameters and this gradient.
+    pub fn hessian(&self, second: [f64; 3], gradient: [f64; 2]) -> [f64; 3] {
         let [e, f] = self.frame;
         self.form(std::array::from_fn(|k| {
-            v[3 + k] - gradient[0] * dot(self.second[k], e) - gradient[1] * dot(self.second[k], f)
+            second[k] - gradient[0] * dot(self.second[k], e) - gradient[1] * dot(self.second[k], f)
         }))
     }
 

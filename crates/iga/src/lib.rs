@@ -5,15 +5,18 @@
 //! eigenvalues of the Laplacian; [`predicted`] rates depend
 //! on the subdominant eigenvalue alone.
 
+mod around;
 mod assembly;
 mod boundary;
 mod eigen;
 mod error;
 mod geometry;
 mod hybrid;
+mod integrals;
 mod multigrid;
 mod nested;
 mod norms;
+mod patch;
 mod problem;
 pub mod solution;
 mod space;

@@ -1,13 +1,14 @@
 //! Galerkin's method: one problem on one level.
 
-use crate::assembly::{Form, Load, Tables, assemble, loads};
+use crate::around::Around;
+use crate::assembly::assemble;
 use crate::geometry::Geometry;
+use crate::integrals::{Form, Load, Tables, loads};
 use crate::multigrid::Multigrid;
 use crate::norms::{Norms, errors};
 use crate::solution::Solution;
 use crate::space::{Depth, Ends, Space};
 use crate::sparse::{Numbering, Sparse};
-use crate::tables::Around;
 use crate::{Error, MOST_ANNULI, boundary};
 use std::time::Instant;
 
@@ -289,7 +290,7 @@ pub(crate) fn run(
     Ok(Outcome {
         faces: space.cells.len(),
         dof,
-        points: space.cells.iter().map(|cell| tables[&cell.kind].weights.len()).sum(),
+        points: space.cells.iter().map(|cell| tables[&cell.kind].points()).sum(),
         error,
         norm,
         solver,

@@ -7,7 +7,9 @@
 //! spline of the ghosts' b alone.
 
 use crate::Error;
-use crate::tables::{Around, Rule, Table, element, far, gauss};
+use crate::around::Around;
+use crate::patch::Rule;
+use crate::tables::{Known, Table, element, far, gauss};
 use eigenring_nonuniform::{Element, grid};
 use eigenring_scheme::{Fan, Lattice, Numbering};
 use eigenring_surface::{Mesh, Point3, Rules, Topology};
@@ -373,13 +375,14 @@ impl Space {
             Depth::Given(depth) => depth,
         };
         let mut tables = BTreeMap::new();
+        let mut known = Known::new(rule);
         for cell in &self.cells {
             tables.entry(cell.kind).or_insert_with(|| match cell.kind {
-                Kind::Far => far(rule),
-                Kind::Near(n, at) => self.around[&n].near(rule, at),
+                Kind::Far => far(&known.uniform),
+                Kind::Near(n, at) => self.around[&n].near(&known.uniform, at),
                 Kind::Irregular(n) => {
                     let around = &self.around[&n];
-                    around.irregular(rule, of(around), scaled)
+                    around.irregular(&known.uniform, of(around), scaled)
                 }
                 Kind::Element(k) => {
                     let of = &self.elements[k];
@@ -387,7 +390,7 @@ impl Space {
                         Depth::Given(depth) => depth,
                         _ => of.depth(),
                     };
-                    element(of, rule, depth, scaled)
+                    element(of, &mut known, depth, scaled)
                 }
             });
         }

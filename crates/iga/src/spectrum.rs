@@ -1,8 +1,9 @@
 //! Eigenvalues of the Laplacian: membranes in the plane, Laplace and Beltrami's operator on closed surfaces.
 
 use crate::Error;
-use crate::assembly::{Form, assemble};
+use crate::assembly::assemble;
 use crate::eigen::lowest;
+use crate::integrals::Form;
 use crate::problem::{Options, coefficients, fixed, tables, used};
 use crate::space::Space;
 use crate::sparse::Numbering;

@@ -1,8 +1,10 @@
 //! A mesh whose levels carry spaces.
 
-use crate::assembly::{Form, assemble, loads, points_of};
+use crate::assembly::assemble;
 use crate::geometry::Geometry;
+use crate::integrals::{Form, loads, points_of};
 use crate::nested::embedding;
+use crate::patch::{Data, Maps, Wanted};
 use crate::problem::{Options, Outcome, Problem, Solver, default_solver, run, tables};
 use crate::solution::Solution;
 use crate::space::{Ends, Space};
@@ -406,14 +408,25 @@ fn refined(mesh: &Mesh, rules: &Rules, levels: usize) -> Result<Mesh, Error> {
 fn project_to_sphere(space: &mut Space, options: &Options) -> Result<(), Error> {
     let tables = tables(space, options, false)?;
     let (mut mass, _) = assemble(space, &tables, &[Form::Mass], None)?;
+    let mut maps = Maps::default();
+    let wanted = Wanted {
+        coefficient: false,
+        space: true,
+        second: false,
+    };
     for face in 0..space.cells.len() {
         let table = &tables[&space.cells[face].kind];
-        let (_, positions) = points_of(space, table, face);
-        let outward = |q: usize| Geometry::new(table.at(q), &positions, 1.0, false, false).is_ok_and(|at| at.outward());
-        if !(0..table.weights.len()).all(outward) {
-            let face = space.cells[face].face as usize;
-            return Err(Error::NotStar { face });
-        }
+        let (_, data) = points_of(space, table, face);
+        table.patches(&data, |patch, control| {
+            patch.jets.sums(control, wanted, &mut maps);
+            let outward = |map: [Data; 6]| Geometry::new(&map, 1.0, false).is_ok_and(|at| at.outward());
+            match maps.iter().all(outward) {
+                true => Ok(()),
+                false => Err(Error::NotStar {
+                    face: space.cells[face].face as usize,
+                }),
+            }
+        })?;
     }
     let factor = mass.swap_remove(0).factor()?;
     let axes = [0, 1, 2].map(|axis| {

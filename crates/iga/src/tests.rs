@@ -1,16 +1,19 @@
 //! What no public function shows: nestedness, invariants of the matrices, deflation, the operator of Laplace
 //! and Beltrami.
 
-use crate::assembly::{Form, Load, assemble};
+use crate::around::Around;
+use crate::assembly::assemble;
 use crate::boundary::nitsche;
 use crate::geometry::Geometry;
 use crate::hybrid;
+use crate::integrals::{Form, Load};
 use crate::multigrid::Multigrid;
 use crate::nested::{embedding, refinement};
 use crate::norms::errors;
+use crate::patch::bicubic;
+use crate::patch::{Control, Data, Jets, Maps, Wanted};
 use crate::solution;
 use crate::space::{Depth, Ends, Space};
-use crate::tables::{Around, bicubic};
 use eigenring_nonuniform::{FirstLevel, Outside, Refinement};
 use eigenring_scheme::{Definition, Spec};
 use eigenring_surface::{Boundary, Mesh, Refiner, Rules, shapes};
@@ -262,8 +265,21 @@ fn the_laplacian_on_a_surface_bends_with_it() {
             [a * cos + height * sin, b, height * cos - a * sin]
         })
         .collect();
-    let jets = bicubic(0.5, 0.5);
-    let at = Geometry::new(&jets, &points, 1.0, false, true).expect("a regular point");
+    let jets = Jets::new(&[([0.5, 0.5], 1.0)], bicubic);
+    let data: [Data; 16] = std::array::from_fn(|k| [0.0, points[k][0], points[k][1], points[k][2]]);
+    let control = Control {
+        values: data,
+        derivatives: data,
+    };
+    let wanted = Wanted {
+        coefficient: false,
+        space: true,
+        second: true,
+    };
+    let mut maps = Maps::default();
+    jets.sums(&control, wanted, &mut maps);
+    let map = maps.iter().next().expect("one point");
+    let at = Geometry::new(&map, 1.0, false).expect("a regular point");
     for name in ["mix", "exp", "quadratic"] {
         let u = solution::named(name).expect("a solution");
         let found = at.exact(&u).hessian;

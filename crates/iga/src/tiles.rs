@@ -1,6 +1,7 @@
 //! Functions of a space as lattices of points: what pictures are made of.
 
-use crate::assembly::points_of;
+use crate::integrals::points_of;
+use crate::patch::{Maps, Wanted};
 use crate::space::{Depth, Ends};
 use crate::{Error, Study};
 
@@ -47,23 +48,26 @@ impl Study<'_> {
             .flat_map(|j| (0..=cuts).map(move |i| ([at(i), at(j)], 1.0)))
             .collect();
         let tables = space.tables_at(&lattice, Depth::Given(annuli), false);
-        let mut tiles = Vec::new();
+        let (mut tiles, mut maps) = (Vec::new(), Maps::default());
+        let wanted = Wanted {
+            coefficient: true,
+            space: true,
+            second: false,
+        };
         for (number, cell) in space.cells.iter().enumerate() {
             let table = &tables[&cell.kind];
-            let (ids, positions) = points_of(&space, table, number);
-            let point = |q: usize| {
-                let mut sum = [0.0; 4];
-                for ((jet, id), position) in table.at(q).iter().zip(&ids).zip(&positions) {
-                    (0..3).for_each(|axis| sum[axis] += jet[0] * position[axis]);
-                    sum[3] += jet[0] * coefficients[*id as usize];
-                }
-                sum
-            };
-            let points: Vec<[f64; 4]> = (0..table.weights.len()).map(point).collect();
-            tiles.extend(points.chunks(lattice.len()).map(|points| Tile {
-                face: cell.face as usize,
-                points: points.to_vec(),
-            }));
+            let (ids, mut data) = points_of(&space, table, number);
+            for (data, &id) in data.iter_mut().zip(&ids) {
+                data[0] = coefficients[id as usize];
+            }
+            table.patches(&data, |patch, control| {
+                patch.jets.sums(control, wanted, &mut maps);
+                tiles.push(Tile {
+                    face: cell.face as usize,
+                    points: maps.iter().map(|[[c, x, y, z], ..]| [x, y, z, c]).collect(),
+                });
+                Ok(())
+            })?;
         }
         Ok(tiles)
     }

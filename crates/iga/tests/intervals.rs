@@ -128,7 +128,7 @@ fn limits_that_come_too_slowly_are_refused() {
             Domain::Planar,
         )
     };
-    let refused = study(100.0).err().expect("it is refused").to_string();
+    let refused = study(100.0).expect_err("it is refused").to_string();
     assert!(refused.contains("0.97") && refused.contains("at most 0.9"), "{refused}");
     assert!(study(10.0).is_ok());
 }
