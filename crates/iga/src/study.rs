@@ -323,8 +323,8 @@ impl<'a> Study<'a> {
     /// About how many bytes a level takes, with as many eigenvalues, or for the solution of a problem.
     /// Without the factor some 2300 a face at 10^6 faces: mesh, space, matrix, a copy of it without held
     /// unknowns, or the coarser ones. Factors have 20 n log2 n entries and more, and take 30 (meshes of
-    /// 7*10^4 to 10^6 unknowns). Tables have a jet for each function of a face at an extraordinary vertex, at
-    /// each point of its annuli.
+    /// 7*10^4 to 10^6 unknowns). Tables of solution and errors have, of each annulus at an extraordinary
+    /// vertex, two matrices of 45 control points over the `2N + 8` of a face.
     pub fn bytes(&self, level: usize, options: &Options, eigenvalues: Option<usize>) -> f64 {
         let first = match &self.levels {
             Levels::Uniform(..) => self.mesh.face_count(),
@@ -347,8 +347,7 @@ impl<'a> Study<'a> {
                 .depth
                 .map_or(-16.0 / (2.0 * lambda.log10()), |depth| depth as f64)
                 .clamp(1.0, MOST_ANNULI as f64);
-            let points = (options.gauss.pow(2) + 36) as f64 * annuli;
-            48.0 * (2 * valence + 8) as f64 * 12.0 * points
+            2.0 * 2.0 * 8.0 * 45.0 * (2 * valence + 8) as f64 * annuli
         };
         let tables: f64 = self.lambdas.iter().map(table).sum();
         faces * (2300.0 + factor + others) + tables
