@@ -113,7 +113,7 @@ pub(crate) fn projected(space: &Space, fixed: &[bool], clamped: bool, u: &Soluti
     let mut values = vec![0.0; fixed.len()];
     if !unknowns.list.is_empty() {
         let matrix = Sparse::from_rows(&rows, fixed.len()).part(&unknowns, &unknowns);
-        let solution = matrix.factor()?.solve(&unknowns.gather(&right));
+        let solution = matrix.factor(None)?.solve(&unknowns.gather(&right));
         unknowns
             .list
             .iter()

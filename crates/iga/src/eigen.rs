@@ -159,7 +159,13 @@ impl Operator<'_> {
 
 /// The lowest eigenvalues with their vectors, ascending. K and M are symmetric, M positive definite, K at
 /// least semidefinite, and `sigma > 0` is of the order of the lowest positive eigenvalue.
-pub(crate) fn lowest(stiffness: &Sparse, mass: &Sparse, sigma: f64, count: usize) -> Result<Vec<(f64, Vector)>, Error> {
+pub(crate) fn lowest(
+    stiffness: &Sparse,
+    mass: &Sparse,
+    places: &[[f64; 3]],
+    sigma: f64,
+    count: usize,
+) -> Result<Vec<(f64, Vector)>, Error> {
     let mut shifted = stiffness.clone();
     shifted
         .values
@@ -167,7 +173,7 @@ pub(crate) fn lowest(stiffness: &Sparse, mass: &Sparse, sigma: f64, count: usize
         .zip(&mass.values)
         .for_each(|(k, m)| *k += sigma * m);
     let operator = Operator {
-        factor: shifted.factor()?,
+        factor: shifted.factor(Some(places))?,
         mass,
     };
     let mut found: Vec<(f64, Vector)> = operator.largest(&Basis::default(), count)?;

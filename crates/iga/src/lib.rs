@@ -16,6 +16,7 @@ mod integrals;
 mod multigrid;
 mod nested;
 mod norms;
+mod ordering;
 mod patch;
 mod problem;
 pub mod solution;

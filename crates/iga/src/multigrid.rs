@@ -63,7 +63,7 @@ impl Multigrid {
         levels.reverse();
         let size = matrix.height();
         let used = Numbering::new(&(0..size).map(|i| i > 0 || !singular).collect::<Vec<_>>());
-        let coarse = matrix.part(&used, &used).factor()?;
+        let coarse = matrix.part(&used, &used).factor(None)?;
         Ok(Multigrid {
             levels,
             coarse,

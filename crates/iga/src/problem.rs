@@ -253,7 +253,8 @@ pub(crate) fn run(
             }
             let part = matrix.part(&unknowns, &unknowns);
             drop(matrix);
-            (part.factor()?.solve(&unknowns.gather(&right)), None)
+            let factor = part.factor(Some(&unknowns.gather(&space.positions)))?;
+            (factor.solve(&unknowns.gather(&right)), None)
         }
         Solver::Multigrid => {
             let part = matrix.part(&unknowns, &unknowns);

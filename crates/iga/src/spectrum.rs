@@ -49,7 +49,8 @@ pub(crate) fn spectrum(space: &Space, membrane: Membrane, count: usize, options:
     let [stiffness, mass] = [0, 1].map(|k| matrices[k].part(&unknowns, &unknowns));
     // constants have the unknowns 1, so the loads of 1 add up to the area
     let area: f64 = weights.iter().sum();
-    let pairs = lowest(&stiffness, &mass, 1.0 / area, count.min(dof))?;
+    let places = unknowns.gather(&space.positions);
+    let pairs = lowest(&stiffness, &mass, &places, 1.0 / area, count.min(dof))?;
     let spread = |vector: &Vec<f64>| {
         let mut values = vec![0.0; free.len()];
         unknowns

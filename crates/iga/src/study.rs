@@ -322,8 +322,8 @@ impl<'a> Study<'a> {
 
     /// About how many bytes a level takes, with as many eigenvalues, or for the solution of a problem.
     /// Without the factor some 2300 a face at 10^6 faces: mesh, space, matrix, a copy of it without held
-    /// unknowns, or the coarser ones. Factors have 20 n log2 n entries and more, and take 30 (meshes of
-    /// 7*10^4 to 10^6 unknowns). Tables of solution and errors have, of each annulus at an extraordinary
+    /// unknowns, or the coarser ones; 1100 remain beside a factor. Factors have 20 to 27 n log2 n entries
+    /// (squares, fans and a cube of 5*10^4 to 10^6 unknowns), for which 30 are counted. Tables of solution and errors have, of each annulus at an extraordinary
     /// vertex, two matrices of 45 control points over the `2N + 8` of a face.
     pub fn bytes(&self, level: usize, options: &Options, eigenvalues: Option<usize>) -> f64 {
         let first = match &self.levels {
@@ -336,9 +336,9 @@ impl<'a> Study<'a> {
             (None, Levels::Intervals(_)) => Solver::Cholesky,
             (None, Levels::Uniform(..)) => options.solver.unwrap_or(default_solver(faces as usize)),
         };
-        let factor = match solver {
-            Solver::Cholesky => 8.0 * 30.0 * faces.log2().max(1.0),
-            Solver::Multigrid => 0.0,
+        let one = match solver {
+            Solver::Cholesky => f64::max(1100.0 + 8.0 * 30.0 * faces.log2().max(1.0), 2300.0),
+            Solver::Multigrid => 2300.0,
         };
         // four more matrices, and two vectors for each direction of Lanczos' basis
         let others = eigenvalues.map_or(0.0, |count| 2400.0 + 16.0 * (3.0 * count as f64 + 100.0));
@@ -350,7 +350,7 @@ impl<'a> Study<'a> {
             2.0 * 2.0 * 8.0 * 45.0 * (2 * valence + 8) as f64 * annuli
         };
         let tables: f64 = self.lambdas.iter().map(table).sum();
-        faces * (2300.0 + factor + others) + tables
+        faces * (one + others) + tables
     }
 
     /// The rates that the worst of the valences predicts, see [`predicted`]. A natural solution is not better
@@ -427,7 +427,7 @@ fn project_to_sphere(space: &mut Space, options: &Options) -> Result<(), Error> 
             }
         })?;
     }
-    let factor = mass.swap_remove(0).factor()?;
+    let factor = mass.swap_remove(0).factor(Some(&space.positions))?;
     let axes = [0, 1, 2].map(|axis| {
         let length = |x: [f64; 3]| x.iter().map(|c| c * c).sum::<f64>().sqrt();
         loads(space, &tables, &|at| at.x[axis] / length(at.x)).map(|load| factor.solve(&load))
