@@ -4,61 +4,52 @@ use crate::decimal;
 use crate::error::{Accepted, Error};
 use crate::table::{Cell, Format, Table};
 use eigenring_surface::Vector3;
-use eigenring_surface::limit::{Evaluator, Kind, Place, Sample, Surface, VertexFan};
+use eigenring_surface::limit::{Kind, Place, Sample, Surface, VertexFan};
 use rayon::prelude::*;
-use std::collections::HashMap;
 use std::fmt::Write;
 use std::path::Path;
 
-/// Samples at places, in their order; faces are evaluated in parallel.
+/// Samples at places, in their order, in parallel.
 ///
 /// # Errors
-/// Those of [`Surface::at`], for the first face with one.
+/// Those of [`Surface::at_each`].
 pub fn samples(surface: &Surface<'_>, places: &[Place]) -> Result<Vec<Sample>, Error> {
-    samples_with(surface, &mut HashMap::new(), places)
+    let mut samples = vec![Sample::ORIGIN; places.len()];
+    let part = part(places.len(), |index| places[index].face);
+    let parts = places.par_chunks(part).zip(samples.par_chunks_mut(part));
+    let found = parts.map(|(places, samples)| {
+        surface.at_each(places, |numbers, found| {
+            for (&number, sample) in numbers.iter().zip(found) {
+                samples[number as usize] = *sample;
+            }
+        })
+    });
+    all(found, || surface.at_each(places, |_, _| {}))?;
+    Ok(samples)
 }
 
-/// Evaluators are kept for as many faces.
-const KEPT: usize = 4096;
+/// Places that a thread evaluates at a time, at least.
+const AT_ONCE: usize = 1 << 14;
 
-/// The same with what is known of faces from places before.
-fn samples_with<'s, 'r>(
-    surface: &'s Surface<'r>,
-    known: &mut HashMap<u32, Evaluator<'s, 'r>>,
-    places: &[Place],
-) -> Result<Vec<Sample>, Error> {
-    let mut order: Vec<u32> = (0..places.len() as u32).collect();
-    order.sort_by_key(|&index| places[index as usize].face);
-    let groups: Vec<&[u32]> = order
-        .chunk_by(|&a, &b| places[a as usize].face == places[b as usize].face)
-        .collect();
-    let face = |group: &[u32]| places[group[0] as usize].face;
-    let before: Vec<Option<Evaluator<'s, 'r>>> = groups.iter().map(|group| known.remove(&face(group))).collect();
-    let found: Result<Vec<(Evaluator<'s, 'r>, Vec<Sample>)>, eigenring_surface::Error> = groups
-        .par_iter()
-        .zip(before)
-        .map(|(group, before)| {
-            let mut evaluator = match before {
-                Some(evaluator) => evaluator,
-                None => surface.evaluator(face(group))?,
-            };
-            let samples: Result<Vec<Sample>, _> = group
-                .iter()
-                .map(|&index| evaluator.at(places[index as usize]))
-                .collect();
-            Ok((evaluator, samples?))
-        })
-        .collect();
-    let mut samples = vec![None; places.len()];
-    for (group, (evaluator, found)) in groups.iter().zip(found?) {
-        if known.len() < KEPT {
-            known.insert(face(group), evaluator);
-        }
-        for (&index, sample) in group.iter().zip(found) {
-            samples[index as usize] = Some(sample);
-        }
+/// How many places make a part, of which each is evaluated on one thread. It makes anew what its faces need:
+/// where places follow their faces, only a face at an end of a part is in another too; elsewhere a face may be
+/// in all, and there are no more of these than threads.
+fn part(count: usize, face: impl Fn(usize) -> u32) -> usize {
+    match (0..count).is_sorted_by_key(face) {
+        true => AT_ONCE,
+        false => count.div_ceil(rayon::current_num_threads()).max(AT_ONCE),
     }
-    Ok(samples.into_iter().flatten().collect())
+}
+
+/// Whether all parts are done; else what is wrong with the whole, which does not depend on how it was cut.
+fn all<E>(
+    parts: impl ParallelIterator<Item = Result<(), E>>,
+    whole: impl FnOnce() -> Result<(), eigenring_surface::Error>,
+) -> Result<(), Error> {
+    match parts.all(|part| part.is_ok()) {
+        true => Ok(()),
+        false => Ok(whole()?),
+    }
 }
 
 /// Samples as columns, the coordinates of a point next to each other; NaN where something does not exist.
@@ -78,19 +69,29 @@ pub struct Columns {
     pub mean: Vec<f64>,
     /// Principal curvatures, 2 numbers each.
     pub principal: Vec<f64>,
-    /// What the surface is like there.
-    pub kinds: Vec<Kind>,
+    /// What the surface is like there, as places in [`KINDS`].
+    pub kinds: Vec<u8>,
 }
 
-/// Places that are evaluated before their samples become columns: these then stay in the processor's cache.
-const AT_ONCE: usize = 1 << 14;
+/// The words for what a surface is like at a point.
+pub const KINDS: [&str; 5] = ["regular", "flat", "bounded", "unbounded", "not defined"];
 
-/// The samples at places as columns, in parallel.
+fn kind_number(kind: &Kind) -> u8 {
+    match kind {
+        Kind::Regular => 0,
+        Kind::Flat => 1,
+        Kind::Bounded { .. } => 2,
+        Kind::Unbounded { .. } => 3,
+        Kind::Undefined(_) => 4,
+    }
+}
+
+/// The samples at `count` places as columns, in parallel.
 ///
 /// # Errors
 /// As [`samples`].
-pub fn columns(surface: &Surface<'_>, places: &[Place]) -> Result<Columns, Error> {
-    let count = places.len();
+pub fn columns(surface: &Surface<'_>, count: usize, place: impl Fn(usize) -> Place + Sync) -> Result<Columns, Error> {
+    // not touched here, but by the threads that fill them
     let zeros = |width: usize| vec![0.0; width * count];
     let mut columns = Columns {
         points: zeros(3),
@@ -100,36 +101,43 @@ pub fn columns(surface: &Surface<'_>, places: &[Place]) -> Result<Columns, Error
         gauss: zeros(1),
         mean: zeros(1),
         principal: zeros(2),
-        kinds: Vec::with_capacity(count),
+        kinds: vec![0; count],
     };
-    let mut known = HashMap::new();
-    for (index, part) in places.chunks(AT_ONCE).enumerate() {
-        let found = samples_with(surface, &mut known, part)?;
-        let start = index * AT_ONCE;
-        let rows = start..start + part.len();
-        let wide = |width: usize| width * rows.start..width * rows.end;
-        let targets = (
-            columns.points[wide(3)].par_chunks_mut(3),
-            columns.first[wide(6)].par_chunks_mut(6),
-            columns.second[wide(9)].par_chunks_mut(9),
-            columns.normals[wide(3)].par_chunks_mut(3),
-            columns.gauss[wide(1)].par_iter_mut(),
-            columns.mean[wide(1)].par_iter_mut(),
-            columns.principal[wide(2)].par_chunks_mut(2),
-            found.par_iter(),
-        );
-        let targets = targets.into_par_iter().with_min_len(AT_ONCE / 16);
-        targets.for_each(|(point, first, second, normal, gauss, mean, principal, sample)| {
-            vectors(point, Some([sample.position.coords]));
-            vectors(first, sample.first);
-            vectors(second, sample.second);
-            vectors(normal, sample.normal.map(|normal| [normal]));
-            *gauss = sample.gauss.unwrap_or(f64::NAN);
-            *mean = sample.mean.unwrap_or(f64::NAN);
-            principal.copy_from_slice(&sample.principal.unwrap_or([f64::NAN; 2]));
-        });
-        columns.kinds.extend(found.iter().map(|sample| sample.kind));
-    }
+    let part = part(count, |index| place(index).face);
+    let parts = (
+        columns.points.par_chunks_mut(3 * part),
+        columns.first.par_chunks_mut(6 * part),
+        columns.second.par_chunks_mut(9 * part),
+        columns.normals.par_chunks_mut(3 * part),
+        columns.gauss.par_chunks_mut(part),
+        columns.mean.par_chunks_mut(part),
+        columns.principal.par_chunks_mut(2 * part),
+        columns.kinds.par_chunks_mut(part),
+    );
+    let found = parts.into_par_iter().enumerate().map(
+        |(number, (points, first, second, normals, gauss, mean, principal, kinds))| {
+            let start = number * part;
+            let places: Vec<Place> = (start..start + kinds.len()).map(&place).collect();
+            surface.at_each(&places, |numbers, found| {
+                for (&number, sample) in numbers.iter().zip(found) {
+                    let row = number as usize;
+                    let wide = |width: usize| width * row..width * (row + 1);
+                    vectors(&mut points[wide(3)], Some([sample.position.coords]));
+                    vectors(&mut first[wide(6)], sample.first);
+                    vectors(&mut second[wide(9)], sample.second);
+                    vectors(&mut normals[wide(3)], sample.normal.map(|normal| [normal]));
+                    gauss[row] = sample.gauss.unwrap_or(f64::NAN);
+                    mean[row] = sample.mean.unwrap_or(f64::NAN);
+                    principal[wide(2)].copy_from_slice(&sample.principal.unwrap_or([f64::NAN; 2]));
+                    kinds[row] = kind_number(&sample.kind);
+                }
+            })
+        },
+    );
+    all(found, || {
+        let places: Vec<Place> = (0..count).map(&place).collect();
+        surface.at_each(&places, |_, _| {})
+    })?;
     Ok(columns)
 }
 
@@ -245,10 +253,9 @@ pub fn write_csv(
     for &place in places {
         surface.check(place).map_err(Error::from)?;
     }
-    let mut known = HashMap::new();
     out.write_all(point_table(&[], &[], derivatives).render(Format::Csv).as_bytes())?;
     for places in places.chunks(32 * AT_ONCE) {
-        let samples = samples_with(surface, &mut known, places)?;
+        let samples = samples(surface, places)?;
         let parts: Result<Vec<String>, std::fmt::Error> = places
             .par_chunks(AT_ONCE)
             .zip(samples.par_chunks(AT_ONCE))

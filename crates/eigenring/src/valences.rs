@@ -8,9 +8,7 @@ use crate::error::Error;
 use clap::Args;
 use std::str::FromStr;
 
-/// The largest valence the command takes. Local matrices grow with the square of the valence, and nothing
-/// beyond is met in practice.
-pub const MAX_VALENCE: usize = 1000;
+pub use eigenring_atlas::schemes::MAX_VALENCE;
 
 /// The smallest valence that a scheme has rules for, unless a matrix or a corner says otherwise.
 const MIN_VALENCE: usize = 3;

@@ -1,7 +1,9 @@
 //! A scheme at one corner: its matrix and everything that follows from it.
 
 use crate::failure::Failure;
+use crate::input::{Text, Whole, count};
 use crate::maps::{CharacteristicMap, SecondOrderMaps};
+use crate::pickle::{self, Reduced};
 use crate::proofs::{Certificate, requirement};
 use crate::scheme::called;
 use crate::spectrum::{Eigenvectors, LimitStencils, NaturalConfiguration, Spectrum};
@@ -16,7 +18,7 @@ use eigenring_atlas::schemes::{SchemeName, Tuner};
 use eigenring_atlas::spectrum::Analysis;
 use eigenring_certify::certify;
 use eigenring_scheme::user::Reading;
-use eigenring_scheme::{Corner, Scheme, Shape};
+use eigenring_scheme::{Corner, Scheme, Shape, Spec};
 use eigenring_spectral::{Annulus, Block, Maps};
 use numpy::PyArray2;
 use pyo3::prelude::*;
@@ -83,6 +85,25 @@ impl At {
     }
 }
 
+impl At {
+    /// Whether its eigenvalues may take longer than some milliseconds.
+    fn is_long(&self, rings: Option<usize>) -> bool {
+        const SECTORS: usize = 20;
+        const ORDER: usize = 6;
+        let high = |name: &SchemeName| match name {
+            SchemeName::Spec(Spec::Tension { order, .. } | Spec::Stam { order }) => *order > ORDER,
+            SchemeName::Spec(_) | SchemeName::NonUniform(_) => false,
+            SchemeName::File(_) => true,
+        };
+        let many = rings.is_some_and(|rings| rings > 3);
+        many || match &self.source {
+            Source::Named { name, corner, .. } => corner.sectors().sectors() > SECTORS || high(name),
+            Source::Rules(scheme) => scheme.valence() > SECTORS,
+            Source::Matrix(_) => false,
+        }
+    }
+}
+
 fn no_rings() -> Failure {
     Failure::usage("a matrix has the points that it has", "no rings and no level")
 }
@@ -102,16 +123,20 @@ impl At {
     fn matrix<'py>(
         &self,
         py: Python<'py>,
-        rings: Option<usize>,
-        level: Option<usize>,
+        rings: Option<Whole>,
+        level: Option<Whole>,
     ) -> Result<Bound<'py, PyArray2<f64>>, Failure> {
+        let [rings, level] = [count(rings, "rings")?, count(level, "level")?];
         if let Source::Matrix(given) = &self.source {
             if rings.is_some() || level.is_some() {
                 return Err(no_rings());
             }
             return Ok(values::matrix(py, given.matrix())?);
         }
-        let local = py.detach(|| Ok::<_, Failure>(LocalMatrix::new(&self.rules()?, rings, level)?))?;
+        let this = self.clone();
+        let local = work::alone(py, self.is_long(rings), move || {
+            Ok(LocalMatrix::new(&this.rules()?, rings, level)?)
+        })?;
         Ok(values::matrix(py, &local.matrix)?)
     }
 
@@ -121,9 +146,13 @@ impl At {
     /// >>> eigenring.Scheme("catmull-clark").at(5).points(1)[1]
     /// {'a': 1, 'b': 0, 'index': 1, 'sector': 0}
     #[pyo3(signature = (rings = None))]
-    fn points<'py>(&self, py: Python<'py>, rings: Option<usize>) -> Result<Bound<'py, PyAny>, Failure> {
-        let local = LocalMatrix::new(&self.rules()?, rings, None)?;
-        Ok(values::object(py, &local.points().json())?)
+    fn points<'py>(&self, py: Python<'py>, rings: Option<Whole>) -> Result<Bound<'py, PyAny>, Failure> {
+        let rings = count(rings, "rings")?;
+        let this = self.clone();
+        let points = work::alone(py, self.is_long(rings), move || {
+            Ok(LocalMatrix::new(&this.rules()?, rings, None)?.points().json())
+        })?;
+        Ok(values::object(py, &points)?)
     }
 
     /// The Fourier blocks of the matrix, index 0 to N/2, of which N - k is the conjugate of k: real float64
@@ -138,10 +167,12 @@ impl At {
     fn blocks<'py>(
         &self,
         py: Python<'py>,
-        rings: Option<usize>,
-        level: Option<usize>,
+        rings: Option<Whole>,
+        level: Option<Whole>,
     ) -> Result<Vec<Bound<'py, PyAny>>, Failure> {
-        let analysis = py.detach(|| self.analysis(rings, level))?;
+        let [rings, level] = [count(rings, "rings")?, count(level, "level")?];
+        let this = self.clone();
+        let analysis = work::alone(py, self.is_long(rings), move || this.analysis(rings, level))?;
         let blocks = analysis.system.blocks().iter().map(|block| -> Result<_, Failure> {
             Ok(match block {
                 Block::Real(matrix) => values::matrix(py, matrix)?.into_any(),
@@ -161,14 +192,17 @@ impl At {
     /// >>> spectrum.fourier[:3].tolist(), spectrum.multiplicities[:3].tolist()
     /// ([0, 1, 1], [1, 2, 2])
     #[pyo3(signature = (rings = None, *, level = None))]
-    fn spectrum(&self, py: Python<'_>, rings: Option<usize>, level: Option<usize>) -> Result<Spectrum, Failure> {
+    fn spectrum(&self, py: Python<'_>, rings: Option<Whole>, level: Option<Whole>) -> Result<Spectrum, Failure> {
+        let [rings, level] = [count(rings, "rings")?, count(level, "level")?];
         if let Source::Matrix(given) = &self.source {
             if rings.is_some() || level.is_some() {
                 return Err(no_rings());
             }
             return Ok(Spectrum::of_matrix(Arc::clone(given)));
         }
-        py.detach(|| Ok(Spectrum::of_scheme(self.analysis(rings, level)?)))
+        let this = self.clone();
+        let of_scheme = move || Ok(Spectrum::of_scheme(this.analysis(rings, level)?));
+        work::alone(py, self.is_long(rings), of_scheme)
     }
 
     /// All right and left eigenvectors with Jordan chains.
@@ -181,12 +215,14 @@ impl At {
     fn eigenvectors(
         &self,
         py: Python<'_>,
-        rings: Option<usize>,
-        level: Option<usize>,
+        rings: Option<Whole>,
+        level: Option<Whole>,
     ) -> Result<Eigenvectors, Failure> {
-        py.detach(|| {
-            let analysis = self.analysis(rings, level)?;
-            let extended = match &self.source {
+        let [rings, level] = [count(rings, "rings")?, count(level, "level")?];
+        let this = self.clone();
+        work::alone(py, self.is_long(rings), move || {
+            let analysis = this.analysis(rings, level)?;
+            let extended = match &this.source {
                 Source::Named { name, corner, .. } => name.extended(corner)?,
                 _ => None,
             };
@@ -202,11 +238,15 @@ impl At {
     /// >>> float(stencils.position[0].round(12))  # N^2 / (N^2 + 5 N)
     /// 0.5
     #[pyo3(signature = (rings = None))]
-    fn limit_stencils(&self, py: Python<'_>, rings: Option<usize>) -> Result<LimitStencils, Failure> {
-        let json = match &self.source {
-            Source::Matrix(given) => given.json(),
-            _ => py.detach(|| Ok::<_, Failure>(self.analysis(rings, None)?.json()))?,
-        };
+    fn limit_stencils(&self, py: Python<'_>, rings: Option<Whole>) -> Result<LimitStencils, Failure> {
+        let rings = count(rings, "rings")?;
+        let this = self.clone();
+        let json = work::alone(py, self.is_long(rings), move || {
+            Ok(match &this.source {
+                Source::Matrix(given) => given.json(),
+                _ => this.analysis(rings, None)?.json(),
+            })
+        })?;
         Ok(LimitStencils::new(&json["limit_stencils"]))
     }
 
@@ -217,8 +257,11 @@ impl At {
     /// >>> natural.points[:2].tolist(), round(natural.value, 6)
     /// ([[0.0, 0.0], [1.0, 0.0]], 0.549988)
     #[pyo3(signature = (rings = None))]
-    fn natural_configuration(&self, py: Python<'_>, rings: Option<usize>) -> Result<NaturalConfiguration, Failure> {
-        py.detach(|| Ok(NaturalConfiguration(self.analysis(rings, None)?.system.natural()?)))
+    fn natural_configuration(&self, py: Python<'_>, rings: Option<Whole>) -> Result<NaturalConfiguration, Failure> {
+        let rings = count(rings, "rings")?;
+        let this = self.clone();
+        let natural = move || Ok(NaturalConfiguration(this.analysis(rings, None)?.system.natural()?));
+        work::alone(py, self.is_long(rings), natural)
     }
 
     /// The characteristic map on the regular patches of one annulus around the centre.
@@ -228,8 +271,9 @@ impl At {
     /// >>> sample.points.shape, bool((sample.jacobians > 0).all())
     /// ((15, 3, 3, 2), True)
     fn characteristic_map(&self, py: Python<'_>) -> Result<CharacteristicMap, Failure> {
-        py.detach(|| {
-            let scheme = self.rules()?;
+        let this = self.clone();
+        work::alone(py, self.is_long(None), move || {
+            let scheme = this.rules()?;
             let annulus = Annulus::new(&scheme)?;
             let system = eigenring_spectral::LocalSystem::new(scheme.limit(), annulus.numbering.rings)?;
             Ok(CharacteristicMap::new(annulus, system.natural()?, system.valence()))
@@ -243,8 +287,9 @@ impl At {
     /// >>> maps.mu.round(6).tolist()
     /// [0.322474, 0.340107, 0.340107]
     fn second_order_maps(&self, py: Python<'_>) -> Result<SecondOrderMaps, Failure> {
-        py.detach(|| {
-            let scheme = self.rules()?;
+        let this = self.clone();
+        work::alone(py, self.is_long(None), move || {
+            let scheme = this.rules()?;
             Ok(SecondOrderMaps::new(Maps::new(&scheme)?, scheme.valence()))
         })
     }
@@ -259,15 +304,15 @@ impl At {
     /// >>> certificate = eigenring.Scheme("catmull-clark").at(5).verify(require="c1")
     /// >>> certificate.holds, certificate.status
     /// (True, 'proven')
-    #[pyo3(signature = (require = "c1", *, exact = false, progress = None))]
+    #[pyo3(signature = (require = Text::of("c1"), *, exact = false, progress = None), text_signature = "($self, require='c1', *, exact=False, progress=None)")]
     fn verify(
         &self,
         py: Python<'_>,
-        require: &str,
+        require: Text,
         exact: bool,
         progress: Option<Py<PyAny>>,
     ) -> Result<Certificate, Failure> {
-        let requirement = requirement(require)?;
+        let requirement = requirement(&require.get("require")?)?;
         let Source::Named { name, shape, steps, .. } = self.source.clone() else {
             return Err(Failure::usage(
                 "what is proven is said of rules, and a matrix has none",
@@ -308,6 +353,30 @@ impl At {
             Source::Rules(scheme) => Some(scheme.valence()),
             Source::Matrix(given) => given.rotation().map(|rotation| rotation.valence),
         }
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> Result<Reduced<'py>, Failure> {
+        Ok(match &self.source {
+            Source::Named { name, shape, steps, .. } => {
+                let scheme = Py::new(py, crate::scheme::Scheme::named(name.clone()))?;
+                let (place, knots) = match shape {
+                    Shape::Knots { intervals, next } => (None, Some((intervals.clone(), next.clone()))),
+                    shape => (Some(Py::new(py, crate::scheme::Corner { shape: shape.clone() })?), None),
+                };
+                let (knots, next) = knots.unzip();
+                pickle::reduced(py, "at", (scheme, place, knots, next, *steps))?
+            }
+            Source::Matrix(given) => {
+                let scheme = crate::scheme::Scheme::of_matrix(given.matrix().clone());
+                pickle::reduced(py, "at_matrix", (Py::new(py, scheme)?, self.valence()))?
+            }
+            Source::Rules(_) => {
+                return Err(Failure::usage(
+                    "the scheme of an objective is no name and no file",
+                    "pickles of schemes by name, from files and of matrices",
+                ));
+            }
+        })
     }
 
     fn __repr__(&self) -> String {

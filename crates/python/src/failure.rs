@@ -71,7 +71,9 @@ impl From<Failure> for PyErr {
         };
         Python::attach(|py| {
             let class = class(py).unwrap_or(&PyValueError::type_object(py)).clone();
-            PyErr::from_type(class, (error.to_string(), error.accepted()))
+            // what was given may have lines of its own
+            let message = error.to_string().replace('\n', "\\n");
+            PyErr::from_type(class, (message, error.accepted()))
         })
     }
 }

@@ -1,6 +1,7 @@
 //! Figures of the command, and rendered pictures.
 
 use crate::failure::Failure;
+use crate::input::{self, Real, Text};
 use crate::mesh::Named;
 use crate::{values, work};
 use eigenring_atlas::figures::{Drawing, Inputs, Studies, find};
@@ -51,13 +52,15 @@ impl Figure {
     /// >>> import eigenring
     /// >>> eigenring.figure("natural-configurations", valences=[5])[0].png(dpi=50)[1:4]
     /// b'PNG'
-    #[pyo3(signature = (dpi = 300.0))]
-    fn png<'py>(&self, py: Python<'py>, dpi: f64) -> Result<Bound<'py, PyBytes>, Failure> {
-        if !(10.0..=2400.0).contains(&dpi) {
-            return Err(Failure::usage(format!("dpi is {dpi}"), "10 to 2400"));
-        }
-        let bytes = py.detach(|| self.drawing.figure.png(dpi).map_err(eigenring_atlas::Error::from))?;
-        Ok(PyBytes::new(py, &bytes))
+    #[pyo3(signature = (dpi = Real::of(300.0)), text_signature = "($self, dpi=300.0)")]
+    fn png<'py>(slf: &Bound<'py, Self>, dpi: Real) -> Result<Bound<'py, PyBytes>, Failure> {
+        let dpi = dpi.such("dpi", "10 to 2400", |dpi| (10.0..=2400.0).contains(&dpi))?;
+        let figure = slf.clone().unbind();
+        let bytes = work::alone(slf.py(), true, move || {
+            let drawn = figure.get().drawing.figure.png(dpi);
+            Ok(drawn.map_err(eigenring_atlas::Error::from)?)
+        })?;
+        Ok(PyBytes::new(slf.py(), &bytes))
     }
 
     /// What it shows, as tables of columns: a dict of dicts of lists.
@@ -123,13 +126,16 @@ impl Picture {
 #[pyo3(signature = (name, *, schemes = None, valences = None, lambdas = None, progress = None))]
 pub fn figure(
     py: Python<'_>,
-    name: &str,
+    name: Text,
     schemes: Option<Vec<Named<'_>>>,
-    valences: Option<Vec<usize>>,
-    lambdas: Option<Vec<f64>>,
+    valences: Option<&Bound<'_, PyAny>>,
+    lambdas: Option<&Bound<'_, PyAny>>,
     progress: Option<Py<PyAny>>,
 ) -> Result<Vec<Figure>, Failure> {
-    let entry = find(name)?;
+    let name = name.get("a figure")?;
+    let entry = find(&name)?;
+    let valences = valences.map(|given| input::valences(given)).transpose()?;
+    let lambdas = lambdas.map(|given| input::numbers(given, "lambdas")).transpose()?;
     let refuse = |what: &str| {
         Err(Failure::usage(
             format!("figure {name} takes no {what}"),

@@ -4,7 +4,7 @@
 //! has it. Their numbers may be of any real type and in any order of memory, as those libraries please.
 
 use crate::failure::Failure;
-use crate::values;
+use crate::input::{self, shown};
 use numpy::{PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
@@ -44,10 +44,7 @@ pub fn arrays(given: &Bound<'_, PyAny>) -> Result<Arrays, Failure> {
         }
         return Ok((coordinates(&points, "points")?, faces));
     }
-    Err(Failure::usage(
-        format!("a mesh is given as {}", given.get_type()),
-        ACCEPTED,
-    ))
+    Err(Failure::usage(format!("a mesh is given as {}", shown(given)), ACCEPTED))
 }
 
 /// Float64 from what another library holds.
@@ -60,7 +57,7 @@ fn coordinates(given: &Bound<'_, PyAny>, what: &str) -> Result<Vec<f64>, Failure
         "f" | "i" | "u" => numpy.call_method1("ascontiguousarray", (array, "float64"))?,
         _ => array,
     };
-    Ok(values::rows(&array, what, Some(3))?.0)
+    Ok(input::rows(&array, what, Some(3))?.0)
 }
 
 /// Faces of any sizes.
@@ -79,9 +76,12 @@ pub fn faces_of(given: &Bound<'_, PyAny>) -> Result<Vec<Vec<u32>>, Failure> {
         if shape.len() != 2 {
             return Err(refuse(format!("the shape is {shape:?}")));
         }
-        let flat = values::indices(&array.call_method0("ravel")?, "faces")?;
-        return Ok(flat.chunks(shape[1].max(1)).map(<[u32]>::to_vec).collect());
+        let flat = input::indices(&array.call_method0("ravel")?, "faces")?;
+        return Ok(match shape[1] {
+            0 => vec![Vec::new(); shape[0]],
+            corners => flat.chunks(corners).map(<[u32]>::to_vec).collect(),
+        });
     }
     let items = given.try_iter().map_err(|_| refuse("no list".to_owned()))?;
-    items.map(|face| values::indices(&face?, "faces")).collect()
+    items.map(|face| input::indices(&face?, "faces")).collect()
 }

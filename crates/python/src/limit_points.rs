@@ -1,13 +1,13 @@
 //! Limit points as arrays.
 
 use crate::failure::Failure;
+use crate::pickle::{self, Reduced};
 use crate::values;
-use eigenring_atlas::limits::Columns;
-use eigenring_surface::Kind;
+use eigenring_atlas::limits::{Columns, KINDS};
 use numpy::{PyArray1, PyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyList, PyString};
+use pyo3::types::{PyBytes, PyList, PyString};
 
 /// Limit points, as arrays with a row for each; NaN where something does not exist.
 ///
@@ -39,7 +39,7 @@ pub struct Limits {
     /// float64 of shape (n, 2): principal curvatures, the smaller first.
     #[pyo3(get)]
     principal: Py<PyArrayDyn<f64>>,
-    kinds: Vec<Kind>,
+    kinds: Vec<u8>,
     listed: PyOnceLock<Py<PyList>>,
 }
 
@@ -67,9 +67,52 @@ impl Limits {
     fn kinds(&self, py: Python<'_>) -> PyResult<Py<PyList>> {
         // few words for many points: each is one string
         let list = self.listed.get_or_try_init(py, || {
-            let names = self.kinds.iter().map(|kind| PyString::intern(py, kind.name()));
+            let words = KINDS.map(|word| PyString::new(py, word));
+            let names = self.kinds.iter().map(|&kind| words[usize::from(kind)].clone());
             Ok::<_, PyErr>(PyList::new(py, names.collect::<Vec<_>>())?.unbind())
         });
         Ok(list?.clone_ref(py))
+    }
+
+    #[staticmethod]
+    #[allow(clippy::too_many_arguments)]
+    fn _of(
+        points: Py<PyArrayDyn<f64>>,
+        first: Py<PyArrayDyn<f64>>,
+        second: Py<PyArrayDyn<f64>>,
+        normals: Py<PyArrayDyn<f64>>,
+        gauss: Py<PyArray1<f64>>,
+        mean: Py<PyArray1<f64>>,
+        principal: Py<PyArrayDyn<f64>>,
+        kinds: Vec<u8>,
+    ) -> Result<Self, Failure> {
+        if let Some(kind) = kinds.iter().find(|kind| usize::from(**kind) >= KINDS.len()) {
+            return Err(Failure::usage(format!("a kind is {kind}"), "0 to 4"));
+        }
+        Ok(Limits {
+            points,
+            first,
+            second,
+            normals,
+            gauss,
+            mean,
+            principal,
+            kinds,
+            listed: PyOnceLock::new(),
+        })
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let arguments = (
+            &self.points,
+            &self.first,
+            &self.second,
+            &self.normals,
+            &self.gauss,
+            &self.mean,
+            &self.principal,
+            PyBytes::new(py, &self.kinds),
+        );
+        pickle::reduced(py, "limit_points", arguments)
     }
 }

@@ -1,11 +1,14 @@
 //! The characteristic map and the second-order maps, sampled.
 
 use crate::failure::Failure;
-use crate::values;
+use crate::input::Whole;
+use crate::pickle::{self, Reduced};
+use crate::{values, work};
 use eigenring_spectral::{Annulus, Graph, Maps, Natural, PatchIndex};
 use numpy::{PyArray1, PyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use rayon::prelude::*;
 
 /// Samples of all patches: a request for more is refused before memory is asked for.
 const MAX_SAMPLES: usize = 50_000_000;
@@ -16,11 +19,11 @@ fn patches(annulus: &Annulus, valence: usize) -> Vec<PatchIndex> {
         .collect()
 }
 
-/// Parameters from 0 to 1, and all patches at all pairs of them.
-fn sampled<T: Send>(
+/// All patches at all pairs of n parameters from 0 to 1, in parallel; `on` makes of a patch what is evaluated.
+fn sampled<T: Send, F: Fn(f64, f64) -> T>(
     patches: &[PatchIndex],
     n: usize,
-    at: impl Fn(PatchIndex, f64, f64) -> T,
+    on: impl Fn(PatchIndex) -> F + Sync,
 ) -> Result<Vec<T>, Failure> {
     let count = n.checked_mul(n).and_then(|square| square.checked_mul(patches.len()));
     if n < 2 || count.is_none_or(|count| count > MAX_SAMPLES) {
@@ -31,15 +34,13 @@ fn sampled<T: Send>(
         ));
     }
     let parameter = |i: usize| i as f64 / (n - 1) as f64;
-    let places = |patch: &PatchIndex| {
-        let patch = *patch;
-        (0..n * n).map(move |place| (patch, parameter(place / n), parameter(place % n)))
+    let at_patch = |patch: &PatchIndex| -> Vec<T> {
+        let at = on(*patch);
+        (0..n * n)
+            .map(|place| at(parameter(place / n), parameter(place % n)))
+            .collect()
     };
-    Ok(patches
-        .iter()
-        .flat_map(places)
-        .map(|(patch, u, v)| at(patch, u, v))
-        .collect())
+    Ok(patches.par_iter().flat_map_iter(at_patch).collect())
 }
 
 /// Samples of the patches of an annulus: arrays with first the patch, then the steps along u and v.
@@ -57,6 +58,22 @@ pub struct Sample {
     jacobians: Py<PyArrayDyn<f64>>,
     /// int64 of shape (patches,): the sector of each patch.
     sectors: Py<PyArray1<i64>>,
+}
+
+#[pymethods]
+impl Sample {
+    #[staticmethod]
+    fn _of(points: Py<PyArrayDyn<f64>>, jacobians: Py<PyArrayDyn<f64>>, sectors: Py<PyArray1<i64>>) -> Self {
+        Sample {
+            points,
+            jacobians,
+            sectors,
+        }
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        pickle::reduced(py, "sample", (&self.points, &self.jacobians, &self.sectors))
+    }
 }
 
 fn sample(py: Python<'_>, patches: &[PatchIndex], n: usize, graphs: &[Graph]) -> Result<Sample, Failure> {
@@ -122,15 +139,20 @@ impl CharacteristicMap {
     /// >>> import eigenring
     /// >>> eigenring.Scheme("catmull-clark").at(5).characteristic_map().sample(2).points.shape
     /// (15, 2, 2, 2)
-    fn sample(&self, py: Python<'_>, n: usize) -> Result<Sample, Failure> {
-        let graphs = py.detach(|| {
-            sampled(&self.patches, n, |patch, u, v| {
-                let jet = |values: &[f64]| self.annulus.patch(values, patch).jet(u, v);
-                let [x, y] = [jet(&self.natural.points[0]), jet(&self.natural.points[1])];
-                Graph::new(&x, &y, &x)
+    fn sample(slf: &Bound<'_, Self>, n: Whole) -> Result<Sample, Failure> {
+        let n = n.count("n")?;
+        let this = slf.clone().unbind();
+        let graphs = work::run(slf.py(), None, move |_| {
+            let map = this.get();
+            sampled(&map.patches, n, |patch| {
+                let [x, y] = [0, 1].map(|axis| map.annulus.patch(&map.natural.points[axis], patch));
+                move |u, v| {
+                    let [x, y] = [x.jet(u, v), y.jet(u, v)];
+                    Graph::new(&x, &y, &x)
+                }
             })
         })?;
-        sample(py, &self.patches, n, &graphs)
+        sample(slf.py(), &slf.get().patches, n, &graphs)
     }
 }
 
@@ -187,15 +209,19 @@ impl SecondOrderMaps {
     /// >>> import eigenring
     /// >>> sorted(eigenring.Scheme("catmull-clark").at(5).second_order_maps().sample(2))
     /// ['gauss', 'heights', 'hessians', 'points']
-    fn sample<'py>(&self, py: Python<'py>, n: usize) -> Result<Bound<'py, PyDict>, Failure> {
-        let graphs = py.detach(|| {
-            let one = |which: usize| sampled(&self.patches, n, |patch, u, v| self.maps.graph(which, patch, u, v));
-            Ok::<_, Failure>([one(0)?, one(1)?, one(2)?])
+    fn sample<'py>(slf: &Bound<'py, Self>, n: Whole) -> Result<Bound<'py, PyDict>, Failure> {
+        let n = n.count("n")?;
+        let (py, this) = (slf.py(), slf.clone().unbind());
+        let graphs = work::run(py, None, move |_| {
+            let SecondOrderMaps { maps, patches } = this.get();
+            let one = |which: usize| sampled(patches, n, |patch| move |u, v| maps.graph(which, patch, u, v));
+            Ok([one(0)?, one(1)?, one(2)?])
         })?;
+        let patches = &slf.get().patches;
         let all = || graphs.iter().flatten();
-        let shape = [3, self.patches.len(), n, n];
+        let shape = [3, patches.len(), n, n];
         let found = PyDict::new(py);
-        let plane = sample(py, &self.patches, n, &graphs[0])?;
+        let plane = sample(py, patches, n, &graphs[0])?;
         found.set_item("points", plane.points)?;
         found.set_item(
             "heights",
@@ -203,10 +229,7 @@ impl SecondOrderMaps {
         )?;
         found.set_item("gauss", values::shaped(py, all().map(Graph::gauss).collect(), &shape)?)?;
         let hessians = all().flat_map(|graph| graph.hessian).collect();
-        found.set_item(
-            "hessians",
-            values::shaped(py, hessians, &[3, self.patches.len(), n, n, 3])?,
-        )?;
+        found.set_item("hessians", values::shaped(py, hessians, &[3, patches.len(), n, n, 3])?)?;
         Ok(found)
     }
 }

@@ -3,7 +3,9 @@
 use crate::failure::Failure;
 use crate::figure::Picture;
 use crate::foreign;
+use crate::input::{self, Indices, Real, Text, Whole};
 use crate::limit_points::Limits;
+use crate::pickle::{self, Reduced};
 use crate::scheme::Scheme;
 use crate::solve::Asked;
 use crate::values;
@@ -19,8 +21,7 @@ use eigenring_nonuniform::Outside;
 use eigenring_surface::{self as surface, Boundary, Place, Point3, Refiner, Rules, Surface, features};
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
-use std::collections::BTreeMap;
-use std::path::PathBuf;
+use pyo3::types::PyBytes;
 use std::sync::Arc;
 
 /// A control mesh of polygons.
@@ -91,6 +92,31 @@ fn check(bytes: f64, what: &str) -> Result<(), Failure> {
     }
 }
 
+/// What is marked, and how sharp it is.
+///
+/// # Errors
+/// What is no mapping to numbers from 0 on, of which one may be infinite.
+fn marks<'py>(given: Option<&Bound<'py, PyAny>>, what: &str) -> Result<Vec<(Bound<'py, PyAny>, f64)>, Failure> {
+    let Some(given) = given else {
+        return Ok(Vec::new());
+    };
+    let refuse = |_| Failure::usage(format!("{what} is {}", input::shown(given)), "a dict of sharpness");
+    let items = given.call_method0("items").map_err(refuse)?;
+    let mark = |item: PyResult<Bound<'py, PyAny>>| {
+        let (place, sharpness): (Bound<'py, PyAny>, Real) = item?.extract()?;
+        let holds = |value| value >= 0.0;
+        let sharpness = sharpness.such("the sharpness", "0 and above", holds)?;
+        // files of meshes have finite numbers, of which the larger ones mean the same
+        let finite = if sharpness.is_finite() {
+            sharpness
+        } else {
+            features::INFINITE
+        };
+        Ok((place, finite))
+    };
+    items.try_iter()?.map(mark).collect()
+}
+
 impl Mesh {
     fn of(mesh: surface::Mesh) -> Self {
         Mesh { mesh: Arc::new(mesh) }
@@ -126,46 +152,41 @@ impl Mesh {
     fn new(
         vertices: &Bound<'_, PyAny>,
         faces: Option<&Bound<'_, PyAny>>,
-        creases: Option<BTreeMap<(u32, u32), f64>>,
-        corners: Option<BTreeMap<u32, f64>>,
-        boundary: Option<&str>,
+        creases: Option<&Bound<'_, PyAny>>,
+        corners: Option<&Bound<'_, PyAny>>,
+        boundary: Option<Text>,
     ) -> Result<Self, Failure> {
         let mut mesh = match (vertices.cast::<Mesh>(), faces) {
             (Ok(mesh), None) => (*mesh.get().mesh).clone(),
             (_, faces) => {
                 let (entries, faces) = match faces {
-                    Some(faces) => (
-                        values::rows(vertices, "vertices", Some(3))?.0,
-                        foreign::faces_of(faces)?,
-                    ),
+                    Some(faces) => (input::rows(vertices, "vertices", Some(3))?.0, foreign::faces_of(faces)?),
                     None => foreign::arrays(vertices)?,
                 };
                 let points = entries.chunks_exact(3).map(|p| Point3::new(p[0], p[1], p[2])).collect();
                 surface::Mesh::new(points, faces)?
             }
         };
-        let sharpness = |value: f64| match value {
-            value if value >= 0.0 => Ok(value),
-            value => Err(Failure::usage(format!("the sharpness is {value}"), "0 and above")),
-        };
-        for ((a, b), value) in creases.unwrap_or_default() {
-            mesh.features.creases.insert(features::edge(a, b), sharpness(value)?);
+        for (edge, sharpness) in marks(creases, "creases")? {
+            let ends = input::indices(&edge, "an edge in creases")?;
+            let &[a, b] = ends.as_slice() else {
+                let message = format!("an edge in creases is {}", input::shown(&edge));
+                return Err(Failure::usage(message, "pairs of vertices"));
+            };
+            mesh.features.creases.insert(features::edge(a, b), sharpness);
         }
-        for (vertex, value) in corners.unwrap_or_default() {
-            mesh.features.corners.insert(vertex, sharpness(value)?);
+        for (vertex, sharpness) in marks(corners, "corners")? {
+            let vertex = vertex.extract::<Whole>()?.count("a vertex in corners")?;
+            mesh.features.corners.insert(vertex as u32, sharpness);
         }
-        mesh.features.boundary = match boundary {
-            None => mesh.features.boundary,
-            Some("edge") => Some(Boundary::Edge),
-            Some("corner") => Some(Boundary::Corner),
-            Some("shrink") => Some(Boundary::Shrink),
-            Some(other) => {
-                return Err(Failure::usage(
-                    format!("unknown boundary '{other}'"),
-                    "edge, corner, shrink",
-                ));
-            }
-        };
+        let boundaries = [
+            ("edge", Boundary::Edge),
+            ("corner", Boundary::Corner),
+            ("shrink", Boundary::Shrink),
+        ];
+        if let Some(boundary) = input::text(boundary, "boundary")? {
+            mesh.features.boundary = Some(input::word("boundary", &boundary, &boundaries)?);
+        }
         let defects: Vec<_> = mesh.defects().into_iter().map(|defect| (defect, None)).collect();
         if !defects.is_empty() {
             return Err(surface::Error::Defects(defects).into());
@@ -183,7 +204,8 @@ impl Mesh {
     /// ...     eigenring.Mesh.read(path)
     /// <Mesh of 4 vertices, 1 faces>
     #[staticmethod]
-    fn read(path: PathBuf) -> Result<Self, Failure> {
+    fn read(path: &Bound<'_, PyAny>) -> Result<Self, Failure> {
+        let path = input::path(path, "the file")?;
         Ok(Mesh::of(meshes::read_surface(&path)?.0))
     }
 
@@ -193,7 +215,8 @@ impl Mesh {
     /// >>> square = eigenring.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
     /// >>> with tempfile.TemporaryDirectory() as folder:
     /// ...     square.write(os.path.join(folder, "square.ply"))
-    fn write(&self, path: PathBuf) -> Result<(), Failure> {
+    fn write(&self, path: &Bound<'_, PyAny>) -> Result<(), Failure> {
+        let path = input::path(path, "the file")?;
         let format = meshes::written_format(&path)?;
         let mut bytes = Vec::new();
         surface::io::write(&self.mesh, &mut bytes, format)?;
@@ -233,14 +256,15 @@ impl Mesh {
     /// >>> triangle = eigenring.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
     /// >>> triangle.subdivide("catmull-clark").faces.shape
     /// (3, 4)
-    #[pyo3(signature = (scheme, levels = 1, *, progress = None))]
+    #[pyo3(signature = (scheme, levels = Whole::of(1), *, progress = None), text_signature = "($self, scheme, levels=1, *, progress=None)")]
     fn subdivide(
         &self,
         py: Python<'_>,
         scheme: Named<'_>,
-        levels: usize,
+        levels: Whole,
         progress: Option<Py<PyAny>>,
     ) -> Result<Mesh, Failure> {
+        let levels = levels.count("levels")?;
         let (scheme, name) = scheme.on_mesh(py)?;
         let mesh = Arc::clone(&self.mesh);
         let refined = work::run(py, progress, move |reporter| {
@@ -290,30 +314,30 @@ impl Mesh {
         sub: Option<&Bound<'_, PyAny>>,
         progress: Option<Py<PyAny>>,
     ) -> Result<Limits, Failure> {
-        let (u, v) = (values::numbers(u, "u")?, values::numbers(v, "v")?);
-        let faces = values::whole_or_many(face, "face", u.len())?;
+        let (u, v) = (input::numbers(u, "u")?, input::numbers(v, "v")?);
+        let faces = input::whole_or_many(face, "face")?;
         let subs = match sub {
-            Some(sub) => values::whole_or_many(sub, "sub", u.len())?,
-            None => vec![0; u.len()],
+            Some(sub) => input::whole_or_many(sub, "sub")?,
+            None => Indices::One(0),
         };
-        if [v.len(), faces.len(), subs.len()]
-            .iter()
-            .any(|&length| length != u.len())
-        {
-            let message = format!("{} faces, {} u and {} v", faces.len(), u.len(), v.len());
-            return Err(Failure::usage(message, "as many of each"));
+        let many = |indices: &Indices| indices.count().is_none_or(|count| count == u.len());
+        if v.len() != u.len() || !many(&faces) || !many(&subs) {
+            let several = |indices: &Indices| indices.count().unwrap_or(1);
+            let counts = [several(&faces), several(&subs), u.len(), v.len()];
+            let [faces, subs, u, v] = counts;
+            let message = format!("{faces} of face, {subs} of sub, {u} of u and {v} of v");
+            return Err(Failure::usage(message, "as many of each, or one face and sub for all"));
         }
-        let place = |i: usize| Place {
-            face: faces[i],
-            sub: subs[i],
-            corner: 0,
-            s: u[i],
-            t: v[i],
-        };
-        let places: Vec<Place> = (0..u.len()).map(place).collect();
-        check(places.len() as f64 * 600.0, &format!("{} points", places.len()))?;
+        check(u.len() as f64 * 600.0, &format!("{} points", u.len()))?;
         let columns = self.on_surface(py, &scheme, progress, move |surface| {
-            Ok(limits::columns(surface, &places)?)
+            let place = |i: usize| Place {
+                face: faces.at(i),
+                sub: subs.at(i),
+                corner: 0,
+                s: u[i],
+                t: v[i],
+            };
+            Ok(limits::columns(surface, u.len(), place)?)
         })?;
         Limits::new(py, columns)
     }
@@ -325,14 +349,15 @@ impl Mesh {
     /// >>> square = eigenring.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
     /// >>> square.limit_mesh("catmull-clark", 8)
     /// <Mesh of 81 vertices, 64 faces>
-    #[pyo3(signature = (scheme, n = 8, *, progress = None))]
+    #[pyo3(signature = (scheme, n = Whole::of(8), *, progress = None), text_signature = "($self, scheme, n=8, *, progress=None)")]
     fn limit_mesh(
         &self,
         py: Python<'_>,
         scheme: Named<'_>,
-        n: usize,
+        n: Whole,
         progress: Option<Py<PyAny>>,
     ) -> Result<Mesh, Failure> {
+        let n = n.count("n")?;
         if !(1..=10_000).contains(&n) {
             return Err(Failure::usage(format!("{n} pieces of an edge"), "1 to 10000"));
         }
@@ -381,15 +406,20 @@ impl Mesh {
     /// >>> found = cube.curvature("catmull-clark")
     /// >>> abs(found["total_gauss"] / found["two_pi_chi"] - 1) < 1e-3
     /// True
-    #[pyo3(signature = (scheme, *, per_face = 8, radii = vec![1e-1, 1e-3, 1e-6, 1e-9, 1e-12], progress = None))]
+    #[pyo3(signature = (scheme, *, per_face = Whole::of(8), radii = None, progress = None), text_signature = "($self, scheme, *, per_face=8, radii=(1e-1, 1e-3, 1e-6, 1e-9, 1e-12), progress=None)")]
     fn curvature<'py>(
         &self,
         py: Python<'py>,
         scheme: Named<'_>,
-        per_face: usize,
-        radii: Vec<f64>,
+        per_face: Whole,
+        radii: Option<&Bound<'py, PyAny>>,
         progress: Option<Py<PyAny>>,
     ) -> Result<Bound<'py, PyAny>, Failure> {
+        let per_face = per_face.count("per_face")?;
+        let radii = match radii {
+            Some(radii) => input::numbers(radii, "radii")?,
+            None => vec![1e-1, 1e-3, 1e-6, 1e-9, 1e-12],
+        };
         if !(1..=1000).contains(&per_face) {
             return Err(Failure::usage(format!("per_face is {per_face}"), "1 to 1000"));
         }
@@ -425,39 +455,40 @@ impl Mesh {
     /// >>> errors = [level["L2"] for level in found["levels"]]
     /// >>> errors[0] > 8 * errors[1] > 64 * errors[2]
     /// True
-    #[pyo3(signature = (scheme, problem = "poisson", *, solution = "exp", levels = 4, bc = None, boundary = "open", dirichlet = None, gauss = 4, depth = None, tail = "drop", solver = None, sphere = false, count = None, progress = None))]
+    #[pyo3(signature = (scheme, problem = Text::of("poisson"), *, solution = Text::of("exp"), levels = Whole::of(4), bc = None, boundary = Text::of("open"), dirichlet = None, gauss = Whole::of(4), depth = None, tail = Text::of("drop"), solver = None, sphere = false, count = None, progress = None), text_signature = "($self, scheme, problem='poisson', *, solution='exp', levels=4, bc=None, boundary='open', dirichlet=None, gauss=4, depth=None, tail='drop', solver=None, sphere=False, count=None, progress=None)")]
     #[allow(clippy::too_many_arguments)]
     fn solve<'py>(
         &self,
         py: Python<'py>,
         scheme: Named<'_>,
-        problem: &str,
-        solution: &str,
-        levels: usize,
-        bc: Option<&str>,
-        boundary: &str,
-        dirichlet: Option<&str>,
-        gauss: usize,
-        depth: Option<usize>,
-        tail: &str,
-        solver: Option<&str>,
+        problem: Text,
+        solution: Text,
+        levels: Whole,
+        bc: Option<Text>,
+        boundary: Text,
+        dirichlet: Option<Text>,
+        gauss: Whole,
+        depth: Option<Whole>,
+        tail: Text,
+        solver: Option<Text>,
         sphere: bool,
-        count: Option<usize>,
+        count: Option<Whole>,
         progress: Option<Py<PyAny>>,
     ) -> Result<Bound<'py, PyAny>, Failure> {
+        let levels = levels.count("levels")?;
         let asked = Asked {
-            problem,
-            solution,
+            problem: problem.get("problem")?,
+            solution: solution.get("solution")?,
             levels,
-            bc,
-            boundary,
-            dirichlet,
-            gauss,
-            depth,
-            tail,
-            solver,
+            bc: input::text(bc, "bc")?,
+            boundary: boundary.get("boundary")?,
+            dirichlet: input::text(dirichlet, "dirichlet")?,
+            gauss: gauss.count("gauss")?,
+            depth: input::count(depth, "depth")?,
+            tail: tail.get("tail")?,
+            solver: input::text(solver, "solver")?,
             sphere,
-            count,
+            count: input::count(count, "count")?,
         };
         let question = asked.question()?;
         let (owner, name) = scheme.on_mesh(py)?;
@@ -486,55 +517,55 @@ impl Mesh {
     /// >>> square = eigenring.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
     /// >>> square.render("catmull-clark", "highlight", size=64).png()[1:4]
     /// b'PNG'
-    #[pyo3(signature = (scheme, show = "shaded", *, view = (-60.0, 28.0, 1.0), light = (-25.0, 25.0), stripes = 6.0, size = 480, up = "z", progress = None))]
+    #[pyo3(signature = (scheme, show = Text::of("shaded"), *, view = None, light = None, stripes = Real::of(6.0), size = Whole::of(480), up = Text::of("z"), progress = None), text_signature = "($self, scheme, show='shaded', *, view=(-60.0, 28.0, 1.0), light=(-25.0, 25.0), stripes=6.0, size=480, up='z', progress=None)")]
     #[allow(clippy::too_many_arguments)]
     fn render(
         &self,
         py: Python<'_>,
         scheme: Named<'_>,
-        show: &str,
-        view: (f64, f64, f64),
-        light: (f64, f64),
-        stripes: f64,
-        size: usize,
-        up: &str,
+        show: Text,
+        view: Option<&Bound<'_, PyAny>>,
+        light: Option<&Bound<'_, PyAny>>,
+        stripes: Real,
+        size: Whole,
+        up: Text,
         progress: Option<Py<PyAny>>,
     ) -> Result<Picture, Failure> {
-        let show = match show {
-            "shaded" => Show::Shaded,
-            "wireframe" => Show::Wireframe,
-            "gauss" => Show::Gauss,
-            "mean" => Show::Mean,
-            "highlight" => Show::Highlight,
-            "reflection" => Show::Reflection,
-            "isophotes" => Show::Isophotes,
-            other => {
-                let accepted = "shaded, wireframe, gauss, mean, highlight, reflection, isophotes";
-                return Err(Failure::usage(format!("unknown picture '{other}'"), accepted));
-            }
+        let pictures = [
+            ("shaded", Show::Shaded),
+            ("wireframe", Show::Wireframe),
+            ("gauss", Show::Gauss),
+            ("mean", Show::Mean),
+            ("highlight", Show::Highlight),
+            ("reflection", Show::Reflection),
+            ("isophotes", Show::Isophotes),
+        ];
+        let show = input::word("show", &show.get("show")?, &pictures)?;
+        let view = match view {
+            Some(view) => input::exactly(view, "view")?,
+            None => [-60.0, 28.0, 1.0],
         };
-        let finite = [view.0, view.1, view.2, light.0, light.1].iter().all(|x| x.is_finite());
-        if !finite || view.2 <= 0.0 {
-            return Err(Failure::usage(
-                "the view has other numbers",
-                "azimuth, elevation, zoom with a zoom above 0",
-            ));
+        if view[2] <= 0.0 {
+            let accepted = "azimuth, elevation, zoom with a zoom above 0";
+            return Err(Failure::usage(format!("the zoom is {}", view[2]), accepted));
         }
-        if !(stripes > 0.0 && stripes <= 1000.0) {
-            return Err(Failure::usage(format!("stripes is {stripes}"), "0 < stripes <= 1000"));
-        }
+        let light = match light {
+            Some(light) => input::exactly(light, "light")?,
+            None => [-25.0, 25.0],
+        };
+        let within = |stripes| stripes > 0.0 && stripes <= 1000.0;
+        let stripes = stripes.such("stripes", "0 < stripes <= 1000", within)?;
+        let size = size.count("size")?;
         if !(32..=4096).contains(&size) {
             return Err(Failure::usage(format!("size is {size}"), "32 to 4096"));
         }
-        if !matches!(up, "y" | "z") {
-            return Err(Failure::usage(format!("up is '{up}'"), "y, z"));
-        }
+        let y_up = input::word("up", &up.get("up")?, &[("y", true), ("z", false)])?;
         let settings = Settings {
             show,
-            view: [view.0, view.1, view.2],
-            light: [light.0, light.1],
+            view,
+            light,
             stripes,
-            y_up: up == "y",
+            y_up,
             size,
             columns: 1,
         };
@@ -553,6 +584,20 @@ impl Mesh {
             Ok(page.png().map_err(eigenring_atlas::Error::from)?)
         })?;
         Ok(Picture { bytes })
+    }
+
+    #[staticmethod]
+    fn _of_obj(text: &[u8], levels: u32) -> Result<Self, Failure> {
+        let mut mesh = surface::io::read(text, surface::io::Format::Obj)?.mesh;
+        mesh.features.levels = levels;
+        Ok(Mesh::of(mesh))
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> Result<Reduced<'py>, Failure> {
+        let mut text = Vec::new();
+        surface::io::write(&self.mesh, &mut text, surface::io::Format::Obj)?;
+        let arguments = (PyBytes::new(py, &text), self.mesh.features.levels);
+        Ok(pickle::reduced(py, "mesh", arguments)?)
     }
 
     fn __repr__(&self) -> String {

@@ -1,6 +1,8 @@
 //! Certificates.
 
 use crate::failure::Failure;
+use crate::input::Text;
+use crate::pickle::{self, Reduced};
 use crate::{values, work};
 use eigenring_atlas::table::Format;
 use eigenring_atlas::verify;
@@ -137,11 +139,12 @@ impl Certificate {
     /// >>> eigenring.Certificate.from_json(text, require="bounded").status
     /// 'refuted'
     #[staticmethod]
-    #[pyo3(signature = (text, *, require = "c1"))]
-    fn from_json(text: String, require: &str) -> Result<Self, Failure> {
+    #[pyo3(signature = (text, *, require = Text::of("c1")), text_signature = "(text, *, require='c1')")]
+    fn from_json(text: Text, require: Text) -> Result<Self, Failure> {
+        let text = text.get("a certificate")?;
         Ok(Certificate {
             certificate: certify::Certificate::from_json(&text)?,
-            requirement: requirement(require)?,
+            requirement: requirement(&require.get("require")?)?,
             text: Some(text),
         })
     }
@@ -157,9 +160,18 @@ impl Certificate {
         let text = self.to_json()?;
         let row = work::run(py, progress, move |_| {
             let path = std::path::Path::new("certificate");
-            Ok(eigenring_atlas::certificates::confirm_text(path, &text, usize::MAX)?)
+            Ok(eigenring_atlas::certificates::confirm_text(
+                path,
+                &text,
+                eigenring_atlas::schemes::MAX_VALENCE,
+            )?)
         })?;
         Ok(row.remark)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> Result<Reduced<'py>, Failure> {
+        let arguments = (self.to_json()?, self.requirement.name());
+        Ok(pickle::reduced(py, "certificate", arguments)?)
     }
 
     fn __repr__(&self) -> String {

@@ -2,7 +2,9 @@
 
 use crate::at::{At, Source};
 use crate::failure::Failure;
-use crate::values;
+use crate::input::{self, Text, Whole};
+use crate::pickle::{self, Reduced};
+use crate::{values, work};
 use eigenring_atlas::given::Given;
 use eigenring_atlas::schemes::{SchemeFile, SchemeName};
 use eigenring_scheme::Shape;
@@ -60,7 +62,7 @@ impl Scheme {
 
     fn of_text(text: &str) -> Result<Self, Failure> {
         let write = || -> std::io::Result<(PathBuf, tempfile::TempDir)> {
-            let folder = tempfile::tempdir()?;
+            let folder = tempfile::Builder::new().prefix("eigenring-").tempdir()?;
             let path = folder.path().join("scheme.toml");
             std::fs::write(&path, text)?;
             Ok((path, folder))
@@ -77,16 +79,14 @@ impl Scheme {
 impl Scheme {
     #[new]
     pub fn new(spec: &Bound<'_, PyAny>) -> Result<Self, Failure> {
-        let text: String = match spec.cast::<PyString>() {
-            Ok(text) => text.extract()?,
-            Err(_) => {
-                let path: PathBuf = spec.extract().map_err(|_| {
-                    let message = format!("a scheme is given as {}", spec.get_type());
-                    Failure::usage(message, "a name, the path of a scheme file, or its text")
-                })?;
-                return Scheme::checked(of_file(&path));
-            }
-        };
+        if !spec.is_instance_of::<PyString>() {
+            let path: PathBuf = spec.extract().map_err(|_| {
+                let message = format!("a scheme is given as {}", input::shown(spec));
+                Failure::usage(message, "a name, the path of a scheme file, or its text")
+            })?;
+            return Scheme::checked(of_file(&path));
+        }
+        let text = spec.extract::<Text>()?.get("a scheme")?;
         if text.contains('\n') {
             let scheme = Scheme::of_text(&text)?;
             // mistakes are told now
@@ -114,17 +114,18 @@ impl Scheme {
     /// >>> round(scheme.at(5).spectrum().subdominant, 6)
     /// 0.549988
     #[staticmethod]
-    #[pyo3(signature = (rule, *, name = "stencils", kind = "one-ring", valences = "3..", parameters = None))]
+    #[pyo3(signature = (rule, *, name = Text::of("stencils"), kind = Text::of("one-ring"), valences = Text::of("3.."), parameters = None), text_signature = "(rule, *, name='stencils', kind='one-ring', valences='3..', parameters=None)")]
     fn from_stencils(
         rule: &Bound<'_, PyDict>,
-        name: &str,
-        kind: &str,
-        valences: &str,
+        name: Text,
+        kind: Text,
+        valences: Text,
         parameters: Option<&Bound<'_, PyDict>>,
     ) -> Result<Self, Failure> {
         let mut table = toml::Table::new();
-        table.insert("name".to_owned(), name.into());
-        table.insert("kind".to_owned(), kind.into());
+        table.insert("name".to_owned(), name.get("name")?.into());
+        table.insert("kind".to_owned(), kind.get("kind")?.into());
+        let valences = valences.get("valences")?;
         if let Some(parameters) = parameters {
             let mut named = toml::Table::new();
             for (key, value) in parameters.iter() {
@@ -132,7 +133,7 @@ impl Scheme {
                     table @ toml::Value::Table(_) => table,
                     default => toml::Value::Table([("default".to_owned(), default)].into_iter().collect()),
                 };
-                named.insert(key.extract()?, value);
+                named.insert(key.extract::<Text>()?.get("the name of a parameter")?, value);
             }
             table.insert("parameters".to_owned(), named.into());
         }
@@ -157,7 +158,7 @@ impl Scheme {
     /// 0.549988
     #[staticmethod]
     fn from_matrix(array: &Bound<'_, PyAny>) -> Result<Self, Failure> {
-        let (entries, rows, columns) = values::rows(array, "matrix", None)?;
+        let (entries, rows, columns) = input::rows(array, "matrix", None)?;
         if rows != columns || rows == 0 {
             return Err(Failure::usage(
                 format!("the matrix is {rows} x {columns}"),
@@ -171,12 +172,9 @@ impl Scheme {
                 "at most 10^8 entries",
             ));
         }
-        Ok(Scheme {
-            what: What::Matrix(Arc::new(Matrix::from_fn(rows, columns, |i, j| {
-                entries[i * columns + j]
-            }))),
-            written: None,
-        })
+        Ok(Scheme::of_matrix(Matrix::from_fn(rows, columns, |i, j| {
+            entries[i * columns + j]
+        })))
     }
 
     /// The same scheme with values for parameters of its file.
@@ -189,12 +187,7 @@ impl Scheme {
     /// 5
     #[pyo3(signature = (**parameters))]
     fn set(&self, parameters: Option<&Bound<'_, PyDict>>) -> Result<Self, Failure> {
-        let mut values = Vec::new();
-        for (key, value) in parameters.into_iter().flatten() {
-            let text = format!("{}={}", key.extract::<String>()?, value.str()?);
-            let refuse = |reason| Failure::usage(reason, "numbers, or fractions such as \"3/2\"");
-            values.push(eigenring_atlas::schemes::setting(&text).map_err(refuse)?);
-        }
+        let values = input::settings(parameters)?;
         let name = self.name()?.clone().setting(&values)?;
         name.definition(Default::default())
             .map(|_| ())
@@ -220,21 +213,33 @@ impl Scheme {
     #[pyo3(signature = (valence = None, knots = None, *, next = None, cs = None))]
     fn at(
         &self,
+        py: Python<'_>,
         valence: Option<&Bound<'_, PyAny>>,
-        knots: Option<Vec<f64>>,
-        next: Option<Vec<f64>>,
-        cs: Option<usize>,
+        knots: Option<&Bound<'_, PyAny>>,
+        next: Option<&Bound<'_, PyAny>>,
+        cs: Option<Whole>,
     ) -> Result<At, Failure> {
+        let intervals = |given: Option<&Bound<'_, PyAny>>, what| given.map(|g| input::numbers(g, what)).transpose();
+        let (knots, next) = (intervals(knots, "knots")?, intervals(next, "next")?);
+        if let Some(knots) = &knots {
+            Whole::of(knots.len() as u64).valence("the number of knots")?;
+        }
+        let cs = input::count(cs, "cs")?;
+        if next.is_some() && knots.is_none() {
+            return Err(Failure::usage("next without knots", "next beside knots"));
+        }
         let corner = valence.and_then(|valence| valence.cast::<Corner>().ok());
         let number = match (valence, corner) {
-            (Some(valence), None) => Some(values::whole(valence, "valence")? as usize),
+            (Some(valence), None) => Some(valence.extract::<Whole>()?.valence("valence")?),
             _ => None,
         };
         if let What::Matrix(matrix) = &self.what {
             if corner.is_some() || knots.is_some() || cs.is_some() {
                 return Err(Failure::usage("a matrix has one corner", "at() or at(valence)"));
             }
-            let given = Given::new("matrix", matrix, number, None)?;
+            let matrix = Arc::clone(matrix);
+            let large = matrix.rows() > 100;
+            let given = work::alone(py, large, move || Ok(Given::new("matrix", &matrix, number, None)?))?;
             return Ok(At::new(Source::Matrix(Arc::new(given))));
         }
         let name = self.name()?;
@@ -284,6 +289,13 @@ impl Scheme {
         }
     }
 
+    fn __reduce__<'py>(&self, py: Python<'py>) -> Result<Reduced<'py>, Failure> {
+        Ok(match &self.what {
+            What::Named(name) => pickle::reduced(py, "scheme", pickle::plain(name)?)?,
+            What::Matrix(matrix) => pickle::reduced(py, "matrix", (values::matrix(py, matrix)?,))?,
+        })
+    }
+
     fn __repr__(&self) -> String {
         format!("<Scheme {}>", self.spec())
     }
@@ -301,12 +313,25 @@ pub fn called(name: &SchemeName) -> String {
 }
 
 impl Scheme {
-    fn checked(name: SchemeName) -> Result<Self, Failure> {
-        name.centre()?;
-        Ok(Scheme {
+    /// By name, as long as what belongs to it is there.
+    pub fn named(name: SchemeName) -> Self {
+        Scheme {
             what: What::Named(name),
             written: None,
-        })
+        }
+    }
+
+    /// By its matrix.
+    pub fn of_matrix(matrix: Matrix<f64>) -> Self {
+        Scheme {
+            what: What::Matrix(Arc::new(matrix)),
+            written: None,
+        }
+    }
+
+    fn checked(name: SchemeName) -> Result<Self, Failure> {
+        name.centre()?;
+        Ok(Scheme::named(name))
     }
 }
 
@@ -316,14 +341,18 @@ fn toml_of(value: &Bound<'_, PyAny>, what: &str) -> Result<toml::Value, Failure>
         let items: Result<Vec<_>, _> = items.map(|item| toml_of(&item, what)).collect();
         Ok(toml::Value::Array(items?))
     };
-    if let Ok(text) = value.cast::<PyString>() {
-        return Ok(toml::Value::String(text.extract()?));
+    if value.is_instance_of::<PyString>() {
+        return Ok(toml::Value::String(value.extract::<Text>()?.get(what)?));
     }
     if value.is_instance_of::<PyBool>() {
         return Ok(toml::Value::Boolean(value.extract()?));
     }
     if value.is_instance_of::<PyInt>() {
-        return Ok(toml::Value::Integer(value.extract()?));
+        let refuse = |_| {
+            let message = format!("{what}: {} has more than 64 bits", input::shown(value));
+            Failure::usage(message, "whole numbers of 64 bits, or text with any")
+        };
+        return Ok(toml::Value::Integer(value.extract().map_err(refuse)?));
     }
     if value.is_instance_of::<PyFloat>() {
         return Ok(toml::Value::Float(value.extract()?));
@@ -331,7 +360,7 @@ fn toml_of(value: &Bound<'_, PyAny>, what: &str) -> Result<toml::Value, Failure>
     if let Ok(dict) = value.cast::<PyDict>() {
         let mut table = toml::Table::new();
         for (key, value) in dict.iter() {
-            table.insert(key.extract()?, toml_of(&value, what)?);
+            table.insert(key.extract::<Text>()?.get(what)?, toml_of(&value, what)?);
         }
         return Ok(toml::Value::Table(table));
     }
@@ -355,7 +384,7 @@ fn toml_of(value: &Bound<'_, PyAny>, what: &str) -> Result<toml::Value, Failure>
 #[pyclass(frozen, module = "eigenring")]
 #[derive(Debug)]
 pub struct Corner {
-    shape: Shape,
+    pub shape: Shape,
 }
 
 #[pymethods]
@@ -366,10 +395,10 @@ impl Corner {
     /// >>> eigenring.Corner.closed(5)
     /// <Corner closed 5>
     #[staticmethod]
-    fn closed(valence: usize) -> Self {
-        Corner {
-            shape: Shape::Closed { sectors: valence },
-        }
+    fn closed(valence: Whole) -> Result<Self, Failure> {
+        let sectors = valence.valence("valence")?;
+        let shape = Shape::Closed { sectors };
+        Ok(Corner { shape })
     }
 
     /// An open fan: a boundary vertex, or one side of a crease; ``corner`` for a fixed vertex.
@@ -379,10 +408,10 @@ impl Corner {
     /// <Corner fan 2, corner>
     #[staticmethod]
     #[pyo3(signature = (faces, corner = false))]
-    fn fan(faces: usize, corner: bool) -> Self {
-        Corner {
-            shape: Shape::Fan { faces, corner },
-        }
+    fn fan(faces: Whole, corner: bool) -> Result<Self, Failure> {
+        let faces = faces.valence("faces")?;
+        let shape = Shape::Fan { faces, corner };
+        Ok(Corner { shape })
     }
 
     /// A vertex at which one crease ends.
@@ -391,10 +420,10 @@ impl Corner {
     /// >>> eigenring.Corner.dart(5)
     /// <Corner dart 5>
     #[staticmethod]
-    fn dart(valence: usize) -> Self {
-        Corner {
-            shape: Shape::Dart { valence },
-        }
+    fn dart(valence: Whole) -> Result<Self, Failure> {
+        let valence = valence.valence("valence")?;
+        let shape = Shape::Dart { valence };
+        Ok(Corner { shape })
     }
 
     /// A fixed vertex without creases.
@@ -403,10 +432,16 @@ impl Corner {
     /// >>> eigenring.Corner.cusp(5)
     /// <Corner cusp 5>
     #[staticmethod]
-    fn cusp(valence: usize) -> Self {
-        Corner {
-            shape: Shape::Cusp { valence },
-        }
+    fn cusp(valence: Whole) -> Result<Self, Failure> {
+        let valence = valence.valence("valence")?;
+        let shape = Shape::Cusp { valence };
+        Ok(Corner { shape })
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        // knots are given with a valence, and are no corner of their own
+        let (kind, sectors, fixed) = pickle::corner(&self.shape).unwrap_or(("closed", 0, false));
+        pickle::reduced(py, "corner", (kind, sectors, fixed))
     }
 
     fn __repr__(&self) -> String {

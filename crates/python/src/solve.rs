@@ -1,6 +1,7 @@
 //! Model problems by the words in which Python asks for them, which are those of the command.
 
 use crate::failure::Failure;
+use crate::input::word;
 use eigenring_atlas::analysis::{Basis, Membranes, Request, Task, spectra, study};
 use eigenring_atlas::progress::Progress;
 use eigenring_iga::{Dirichlet, Domain, Ends, Membrane, Options, Solver};
@@ -9,17 +10,17 @@ use serde_json::Value;
 use std::path::Path;
 
 /// What is asked for, in words.
-pub struct Asked<'a> {
-    pub problem: &'a str,
-    pub solution: &'a str,
+pub struct Asked {
+    pub problem: String,
+    pub solution: String,
     pub levels: usize,
-    pub bc: Option<&'a str>,
-    pub boundary: &'a str,
-    pub dirichlet: Option<&'a str>,
+    pub bc: Option<String>,
+    pub boundary: String,
+    pub dirichlet: Option<String>,
     pub gauss: usize,
     pub depth: Option<usize>,
-    pub tail: &'a str,
-    pub solver: Option<&'a str>,
+    pub tail: String,
+    pub solver: Option<String>,
     pub sphere: bool,
     pub count: Option<usize>,
 }
@@ -32,17 +33,6 @@ pub enum Question {
 
 /// What the mesh is called in place of its file.
 const MESH: &str = "mesh";
-
-/// What a word stands for.
-fn named<T: Copy>(what: &str, given: &str, words: &[(&str, T)]) -> Result<T, Failure> {
-    match words.iter().find(|(word, _)| *word == given) {
-        Some((_, value)) => Ok(*value),
-        None => {
-            let accepted: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
-            Err(Failure::usage(format!("{what} is '{given}'"), accepted.join(", ")))
-        }
-    }
-}
 
 #[derive(Clone, Copy, PartialEq)]
 enum Condition {
@@ -60,7 +50,7 @@ enum Problem {
     Spectrum,
 }
 
-impl Asked<'_> {
+impl Asked {
     /// The question, of which each argument has a meaning for the problem.
     ///
     /// # Errors
@@ -73,13 +63,13 @@ impl Asked<'_> {
             ("patch-test", Problem::PatchTest),
             ("spectrum", Problem::Spectrum),
         ];
-        let problem = named("problem", self.problem, &problems)?;
+        let problem = word("problem", &self.problem, &problems)?;
         let conditions = [
             ("dirichlet", Condition::Dirichlet),
             ("neumann", Condition::Neumann),
             ("closed", Condition::Closed),
         ];
-        let bc = self.bc.map(|bc| named("bc", bc, &conditions)).transpose()?;
+        let bc = self.bc.as_ref().map(|bc| word("bc", bc, &conditions)).transpose()?;
         let domain = match (bc == Some(Condition::Closed), self.sphere) {
             (true, true) => Domain::Sphere,
             (true, false) => Domain::Closed,
@@ -91,19 +81,24 @@ impl Asked<'_> {
         let tails = [("drop", false), ("scaled", true)];
         let solver = self
             .solver
-            .map(|solver| named("solver", solver, &methods))
+            .as_ref()
+            .map(|solver| word("solver", solver, &methods))
             .transpose()?;
-        let dirichlet = self.dirichlet.map(|word| named("dirichlet", word, &data)).transpose()?;
+        let dirichlet = self
+            .dirichlet
+            .as_ref()
+            .map(|given| word("dirichlet", given, &data))
+            .transpose()?;
         let options = Options {
-            ends: named(
+            ends: word(
                 "boundary",
-                self.boundary,
+                &self.boundary,
                 &[("open", Ends::Open), ("natural", Ends::Natural)],
             )?,
             dirichlet: dirichlet.unwrap_or(Dirichlet::Projection),
             gauss: self.gauss,
             depth: self.depth,
-            scaled: named("tail", self.tail, &tails)?,
+            scaled: word("tail", &self.tail, &tails)?,
             solver,
         };
         if problem == Problem::Spectrum {
@@ -152,7 +147,7 @@ impl Asked<'_> {
         }
         Ok(Question::Solve(Request {
             task,
-            solution: self.solution.to_owned(),
+            solution: self.solution.clone(),
             domain,
             levels: self.levels,
             options,

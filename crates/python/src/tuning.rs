@@ -2,18 +2,19 @@
 
 use crate::at::{At, Source};
 use crate::failure::Failure;
+use crate::input::{self, Real, Text, Whole};
 use crate::mesh::Named;
 use crate::proofs::Certificate;
 use crate::{values, work};
 use eigenring_atlas::progress::Progress;
 use eigenring_atlas::results::tables;
 use eigenring_atlas::run::{Parameters, check, studies};
-use eigenring_atlas::schemes::{SchemeName, setting};
+use eigenring_atlas::schemes::SchemeName;
 use eigenring_atlas::tune::{at, over_lambda};
 use eigenring_atlas::tuning::{Condition, Goal, Own, Plan};
 use eigenring_certify::Requirement;
 use eigenring_scheme::Scheme;
-use eigenring_scheme::lambda::LambdaTable;
+use eigenring_scheme::lambda::Splines;
 use eigenring_tune::study::Knots;
 use eigenring_tune::sweep::{Options, Range};
 use pyo3::prelude::*;
@@ -98,28 +99,31 @@ impl Tuned {
 /// True
 #[pyfunction]
 #[pyo3(signature = (
-    scheme, valence, minimise = None, *, lambda_ = None, subject_to = Vec::new(), fix = None, margin = None, seed = 0,
-    descents = 6, name = "tuned", progress = None
-))]
+    scheme, valence, minimise = None, *, lambda_ = None, subject_to = Vec::new(), fix = None, margin = None, seed = Whole::of(0),
+    descents = Whole::of(6), name = Text::of("tuned"), progress = None
+), text_signature = "(scheme, valence, minimise=None, *, lambda_=None, subject_to=(), fix=None, margin=None, seed=0, descents=6, name='tuned', progress=None)")]
 #[allow(clippy::too_many_arguments)]
 pub fn tune(
     py: Python<'_>,
     scheme: Named<'_>,
     valence: &Bound<'_, PyAny>,
     minimise: Option<&Bound<'_, PyAny>>,
-    lambda_: Option<f64>,
-    subject_to: Vec<String>,
+    lambda_: Option<Real>,
+    subject_to: Vec<Text>,
     fix: Option<&Bound<'_, PyDict>>,
-    margin: Option<f64>,
-    seed: u64,
-    descents: usize,
-    name: &str,
+    margin: Option<Real>,
+    seed: Whole,
+    descents: Whole,
+    name: Text,
     progress: Option<Py<PyAny>>,
 ) -> Result<Tuned, Failure> {
-    let valences: Vec<usize> = values::whole_or_many(valence, "valence", 1)?
-        .into_iter()
-        .map(|n| n as usize)
-        .collect();
+    let valences = input::valences(valence)?;
+    let lambda_ = lambda_.map(|lambda| lambda.finite("lambda_")).transpose()?;
+    let accepted = "0 to below 0.5";
+    let margin = margin.map(|margin| margin.such("margin", accepted, |margin| (0.0..0.5).contains(&margin)));
+    let margin = margin.transpose()?;
+    let seed = seed.up_to(u64::MAX, "seed")?;
+    let descents = descents.count("descents")?;
     if let Named::Name(text) = &scheme
         && text.cast::<PyString>().is_ok_and(|text| text == "lambda")
     {
@@ -144,9 +148,6 @@ pub fn tune(
             "lambda_ has no meaning for a scheme file",
             "lambda_ with the scheme \"lambda\"",
         ));
-    }
-    if !(0.0..0.5).contains(&margin) {
-        return Err(Failure::usage(format!("margin is {margin}"), "0 to below 0.5"));
     }
     if !(1..=MAX_DESCENTS).contains(&descents) {
         return Err(Failure::usage(
@@ -180,24 +181,19 @@ pub fn tune(
         }
     };
     let named = match &own {
-        None => Some(minimise.extract::<String>()?.parse::<Goal>()?),
+        None => Some(minimise.extract::<Text>()?.get("minimise")?.parse::<Goal>()?),
         Some(_) => None,
     };
-    let mut fixed = Vec::new();
-    for (key, value) in fix.into_iter().flatten() {
-        let text = format!("{}={}", key.extract::<String>()?, value.str()?);
-        let refuse = |reason| Failure::usage(reason, "numbers, or fractions such as \"3/2\"");
-        let (name, value) = setting(&text).map_err(refuse)?;
-        fixed.push((name, Some(value)));
-    }
+    let settings = input::settings(fix)?.into_iter();
+    let fixed = settings.map(|(name, value)| (name, Some(value))).collect();
     let mut conditions: Vec<Condition> = Vec::new();
-    for text in &subject_to {
-        let condition = text.parse().map_err(eigenring_atlas::Error::from)?;
+    for text in subject_to {
+        let condition = text.get("a condition")?.parse().map_err(eigenring_atlas::Error::from)?;
         if !conditions.contains(&condition) {
             conditions.push(condition);
         }
     }
-    let name = name.to_owned();
+    let name = name.get("name")?;
     let kept = Arc::clone(&raised);
     let result = work::run(py, progress, move |reporter| {
         let _kept = scheme;
@@ -273,30 +269,44 @@ fn of_lambda(
 
 /// The stored splines and featured lambdas of the lambda-scheme at a valence, as a dict.
 ///
+/// ``splines`` is ``"paper"``, those with the paper's 17 coefficients, which ``lambda:lambda=L`` stands for;
+/// or ``"fine"``, those with as many as it takes to lose less than a hundredth of the objective against the
+/// samples, which ``lambda:fine,lambda=L`` stands for. The knots then say how many single ones there are.
+///
 /// >>> import eigenring
-/// >>> eigenring.lambda_table(5)["valence"]
-/// 5
+/// >>> entry, fine = eigenring.lambda_table(5), eigenring.lambda_table(5, splines="fine")
+/// >>> entry["valence"], len(entry["f2"]), len(fine["f2"]) > 17
+/// (5, 17, True)
 #[pyfunction]
-pub fn lambda_table<'py>(py: Python<'py>, valence: &Bound<'py, PyAny>) -> Result<Bound<'py, PyAny>, Failure> {
-    let valence = values::whole(valence, "valence")? as usize;
-    let entry = LambdaTable::embedded()?.entry(valence)?;
+#[pyo3(signature = (valence, *, splines = Text::of("paper")), text_signature = "(valence, *, splines='paper')")]
+pub fn lambda_table<'py>(py: Python<'py>, valence: Whole, splines: Text) -> Result<Bound<'py, PyAny>, Failure> {
+    let valence = valence.valence("valence")?;
+    let tables = [("paper", Splines::Paper), ("fine", Splines::Fine)];
+    let entry = input::word("splines", &splines.get("splines")?, &tables)?
+        .table()?
+        .entry(valence)?;
     let json = serde_json::to_value(entry).map_err(|error| eigenring_atlas::Error::content(error.to_string()))?;
     Ok(values::object(py, &json)?)
 }
 
 /// The tables of the lambda-scheme as dicts of columns, computed anew.
 #[pyfunction]
-#[pyo3(signature = (valences, progress = None))]
+#[pyo3(signature = (valences, progress = None, knots = Text::of("detected")), text_signature = "(valences, progress=None, knots='detected')")]
 pub fn table_columns<'py>(
     py: Python<'py>,
     valences: &Bound<'py, PyAny>,
     progress: Option<Py<PyAny>>,
+    knots: Text,
 ) -> Result<Bound<'py, PyDict>, Failure> {
-    let valences = values::indices(valences, "valences")?
-        .into_iter()
-        .map(|n| n as usize)
-        .collect();
-    let parameters = Parameters::new(valences, Knots::Detected, &Options::default(), &Range::default());
+    let all = [
+        ("detected", Knots::Detected),
+        ("paper", Knots::Paper),
+        ("sharp", Knots::Sharp),
+        ("fine", Knots::Fine),
+    ];
+    let knots = input::word("knots", &knots.get("knots")?, &all)?;
+    let valences = input::valences(valences)?;
+    let parameters = Parameters::new(valences, knots, &Options::default(), &Range::default());
     let found = work::run(py, progress, move |reporter| {
         check(&parameters)?;
         Ok(studies(&parameters, &(), reporter as &dyn Progress)?)

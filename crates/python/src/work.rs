@@ -1,13 +1,18 @@
 //! Long work: without the interpreter's lock, on a thread of its own, while the calling thread listens for
 //! Ctrl-C and tells the caller's callback how far the work has come.
 //!
+//! The pool of threads is the package's own. That of rayon is made once in a process: it is not there after a
+//! fork, and a callback on one of its threads that asks for further work would wait for itself.
+//!
 //! Work ends early at the next step that it reports: the report unwinds through it. What reports nothing for
 //! a while runs on in the background until then, and its result is dropped.
 
 use crate::failure::Failure;
+use crate::input::shown;
 use eigenring_atlas::progress::{Progress, Task};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -16,6 +21,48 @@ use std::time::Duration;
 
 /// How long an interrupt may wait.
 const PAUSE: Duration = Duration::from_millis(50);
+
+/// The pool, and the process that has made it.
+static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
+
+/// The threads on which work falls into parts.
+fn pool() -> Result<Arc<ThreadPool>, Failure> {
+    let new = || {
+        let named = ThreadPoolBuilder::new().thread_name(|index| format!("eigenring-{index}"));
+        let built = named.build();
+        built.map(Arc::new).map_err(|error| {
+            let message = format!("no threads can be started: {error}");
+            Failure::from(PyRuntimeError::new_err(message))
+        })
+    };
+    // work within work has threads of its own
+    if rayon::current_thread_index().is_some() {
+        return new();
+    }
+    // after a fork in which another thread had the lock there is nobody to open it
+    let Ok(mut kept) = POOL.try_lock() else {
+        return new();
+    };
+    let process = std::process::id();
+    if let Some((owner, pool)) = kept.as_ref()
+        && *owner == process
+    {
+        return Ok(Arc::clone(pool));
+    }
+    let pool = new()?;
+    // the threads of the other process cannot be told to stop
+    std::mem::forget(kept.replace((process, Arc::clone(&pool))));
+    Ok(pool)
+}
+
+/// Later work gets other threads.
+fn abandon(pool: &Arc<ThreadPool>) {
+    if let Ok(mut kept) = POOL.try_lock()
+        && kept.as_ref().is_some_and(|(_, kept)| Arc::ptr_eq(kept, pool))
+    {
+        *kept = None;
+    }
+}
 
 /// What is being done: name, steps done, steps in all.
 #[derive(Debug, Default)]
@@ -82,6 +129,28 @@ impl Task for Running<'_> {
     }
 }
 
+/// Work in one piece that reports nothing. If it may take `long`, it leaves the calling thread free for
+/// Ctrl-C; what takes well below a millisecond would be delayed by the change of threads.
+///
+/// # Errors
+/// Those of the work; KeyboardInterrupt.
+pub fn alone<T, F>(py: Python<'_>, long: bool, work: F) -> Result<T, Failure>
+where
+    T: Send + 'static,
+    F: FnOnce() -> Result<T, Failure> + Send + 'static,
+{
+    let listens = || -> PyResult<bool> {
+        let threading = py.import("threading")?;
+        let main = threading.call_method0("main_thread")?;
+        Ok(threading.call_method0("current_thread")?.is(&main))
+    };
+    // interrupts reach the main thread alone
+    match long && listens()? {
+        true => run(py, None, move |_| work()),
+        false => py.detach(work),
+    }
+}
+
 /// Runs work and returns its result. `callback(what, done, total)` is called on the calling thread.
 ///
 /// # Errors
@@ -91,10 +160,15 @@ where
     T: Send + 'static,
     F: FnOnce(&Reporter) -> Result<T, Failure> + Send + 'static,
 {
+    if let Some(callback) = callback.as_ref().filter(|callback| !callback.bind(py).is_callable()) {
+        let message = format!("progress is {}", shown(callback.bind(py)));
+        return Err(Failure::usage(message, "a function of what, done and total"));
+    }
+    let pool = pool()?;
     let reporter = Reporter::default();
     let (sender, receiver) = channel();
     let own = reporter.clone();
-    std::thread::spawn(move || {
+    pool.spawn(move || {
         let result = catch_unwind(AssertUnwindSafe(|| work(&own)));
         // whoever waited may be gone
         let _ = sender.send(result);
@@ -118,6 +192,8 @@ where
         told = at;
         if let Err(error) = listened {
             reporter.cancel();
+            // what reports nothing keeps its thread for a while, and others shall not wait for it
+            abandon(&pool);
             return Err(error.into());
         }
         match received {

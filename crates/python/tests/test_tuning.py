@@ -1,5 +1,6 @@
 """Tuning: the command on the same file, own objectives, and what callbacks may do."""
 
+import json
 import pathlib
 import signal
 import threading
@@ -85,9 +86,34 @@ def test_interrupts_end_long_work():
         signal.signal(signal.SIGINT, before)
 
 
+@pytest.mark.parametrize("splines, file", [("paper", "lambda.json"), ("fine", "lambda-fine.json")])
+def test_stored_splines_are_those_of_the_file(splines, file):
+    stored = json.loads((ROOT / "crates" / "scheme" / "data" / file).read_text(encoding="utf-8"))
+    for entry in stored["valences"]:
+        assert eigenring.lambda_table(entry["valence"], splines=splines) == entry
+
+
+@pytest.mark.parametrize("splines, spec", [("paper", "lambda:"), ("fine", "lambda:fine,")])
+def test_the_schemes_have_the_weights_of_the_splines(splines, spec):
+    """The oracle is scipy's spline on the knots of the entry: triple ones with equally spaced single ones between."""
+    interpolate = pytest.importorskip("scipy.interpolate", reason="scipy is not installed")
+    for valence in (3, 5, 8, 20):
+        entry = eigenring.lambda_table(valence, splines=splines)
+        ends = [entry["knots"][name] for name in "abcde"]
+        singles = entry["knots"].get("singles", [1] * 4)
+        knots = [ends[0]]
+        for low, high, count in zip(ends, ends[1:], singles):
+            knots += [low] * 3 + np.linspace(low, high, count + 2)[1:-1].tolist()
+        knots += [ends[-1]] * 4
+        f2, f3 = (interpolate.BSpline(knots, entry[name], 3) for name in ("f2", "f3"))
+        for value in (entry["lambda_optimal"], 0.3, 0.62):
+            matrix = eigenring.Scheme(f"{spec}lambda={value}").at(valence).matrix(1)
+            # the row of the first face point: its own face, the two edges beside it, the vertex
+            f2s, f3s = (matrix[2][abs(matrix[2] - spline(value)) < 1e-11] for spline in (f2, f3))
+            assert len(f2s) == 2 and len(f3s) >= 1, (valence, value, matrix[2])
+
+
 def test_tables_are_stored_and_computed():
-    entry = eigenring.lambda_table(5)
-    assert entry["valence"] == 5
     pandas = pytest.importorskip("pandas")
     featured = eigenring.tables([4])["table1_featured_lambda"]
     # the oracle is what the command has stored

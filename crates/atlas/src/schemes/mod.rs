@@ -48,6 +48,10 @@ pub struct SchemeFile {
     pub values: Vec<(String, Number)>,
 }
 
+/// The largest valence that is asked for. Local matrices grow with the square of the valence, and nothing
+/// beyond is met in practice.
+pub const MAX_VALENCE: usize = 1000;
+
 /// How a scheme file is named.
 const FILE: &str = "file:SCHEME.toml[,parameter=value,..]";
 

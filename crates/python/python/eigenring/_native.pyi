@@ -125,6 +125,8 @@ class NaturalConfiguration:
 
 @final
 class Sample:
+    @staticmethod
+    def _of(points: _Floats, jacobians: _Floats, sectors: _Integers) -> Sample: ...
     @property
     def points(self) -> _Floats: ...
     @property
@@ -171,6 +173,17 @@ _Numbers = Union[float, _Floats, Sequence[float]]
 
 @final
 class LimitPoints:
+    @staticmethod
+    def _of(
+        points: _Floats,
+        first: _Floats,
+        second: _Floats,
+        normals: _Floats,
+        gauss: _Floats,
+        mean: _Floats,
+        principal: _Floats,
+        kinds: bytes,
+    ) -> LimitPoints: ...
     @property
     def points(self) -> _Floats: ...
     @property
@@ -227,6 +240,8 @@ class Mesh:
     @staticmethod
     def read(path: Union[str, PathLike[str]]) -> Mesh: ...
     def write(self, path: Union[str, PathLike[str]]) -> None: ...
+    @staticmethod
+    def _of_obj(text: bytes, levels: int) -> Mesh: ...
     @property
     def vertices(self) -> _Floats: ...
     @property
@@ -326,5 +341,7 @@ def tune(
     name: str = "tuned",
     progress: Optional[_Progress] = None,
 ) -> Tuned: ...
-def lambda_table(valence: int) -> Dict[str, Any]: ...
-def table_columns(valences: Sequence[int], progress: Optional[_Progress] = None) -> Dict[str, Dict[str, List[Any]]]: ...
+def lambda_table(valence: int, *, splines: str = "paper") -> Dict[str, Any]: ...
+def table_columns(
+    valences: Sequence[int], progress: Optional[_Progress] = None, knots: str = "detected"
+) -> Dict[str, Dict[str, List[Any]]]: ...

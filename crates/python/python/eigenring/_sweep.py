@@ -26,19 +26,25 @@ class _Plain(NamedTuple):
     values: Tuple[Tuple[str, Parameter], ...]
 
 
+def _shown(given: Any) -> str:
+    """A value in a message of one line."""
+    text = " ".join(repr(given).split())
+    return text if len(text) <= 60 else text[:60] + ".."
+
+
 def _plain(task: Any) -> _Plain:
     try:
         scheme, valence, *rest = task
     except (TypeError, ValueError):
-        raise Error(f"a task is {task!r}: accepted are {_ACCEPTED}", _ACCEPTED) from None
+        raise Error(f"a task is {_shown(task)}: accepted are {_ACCEPTED}", _ACCEPTED) from None
     if len(rest) > 1 or isinstance(task, str):
-        raise Error(f"a task is {task!r}: accepted are {_ACCEPTED}", _ACCEPTED)
+        raise Error(f"a task is {_shown(task)}: accepted are {_ACCEPTED}", _ACCEPTED)
     if not isinstance(scheme, (str, PathLike)):
         accepted = "the name of a scheme, the path of a scheme file, or its text"
-        raise Error(f"the scheme of a task is {scheme!r}: accepted is {accepted}", accepted)
+        raise Error(f"the scheme of a task is {_shown(scheme)}: accepted is {accepted}", accepted)
     text = os.fspath(scheme)
     if isinstance(valence, bool) or not hasattr(valence, "__index__"):
-        raise Error(f"the valence of a task is {valence!r}: accepted are whole numbers", "whole numbers")
+        raise Error(f"the valence of a task is {_shown(valence)}: accepted are whole numbers", "whole numbers")
     if "\n" not in text and text.endswith(".toml") and not text.startswith("file:"):
         # workers need not have the file
         try:
@@ -68,7 +74,7 @@ def _number(name: str, value: Any) -> Parameter:
     except (TypeError, ValueError):
         number = math.nan
     if not math.isfinite(number):
-        raise Error(f"{name} is {value!r}: accepted are finite numbers", "finite numbers")
+        raise Error(f"{name} is {_shown(value)}: accepted are finite numbers", "finite numbers")
     return number
 
 
@@ -107,14 +113,14 @@ def _run(task: _Plain, study: Callable[[At], Mapping[str, Any]]) -> Dict[str, An
 def _on_threads(
     tasks: List[_Plain], study: Callable[[At], Mapping[str, Any]]
 ) -> Rows:
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        futures = {pool.submit(_run, task, study): place for place, task in enumerate(tasks)}
-        try:
-            for future in as_completed(futures):
-                yield futures[future], future.result()
-        finally:
-            for future in futures:
-                future.cancel()
+    pool = ThreadPoolExecutor(os.cpu_count())
+    futures = {pool.submit(_run, task, study): place for place, task in enumerate(tasks)}
+    try:
+        for future in as_completed(futures):
+            yield futures[future], future.result()
+    finally:
+        # nobody waits for those that are under way when the caller has had enough
+        pool.shutdown(wait=False, cancel_futures=True)
 
 
 def _on_cluster(
@@ -167,7 +173,7 @@ def sweep(
     """
     given = [_plain(task) for task in tasks]
     if not callable(study):
-        raise Error(f"the study is {study!r}: accepted is a function of At", "a function of At")
+        raise Error(f"the study is {_shown(study)}: accepted is a function of At", "a function of At")
     found: List[Optional[Dict[str, Any]]] = [None] * len(given)
     if given:
         rows = _on_threads(given, study) if client is None else _on_cluster(client, given, study)

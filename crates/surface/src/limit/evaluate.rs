@@ -75,7 +75,7 @@ pub struct Sample {
 
 impl Sample {
     /// A sample that is yet to be filled in.
-    pub(super) const ORIGIN: Sample = Sample {
+    pub const ORIGIN: Sample = Sample {
         position: Point3::new(0.0, 0.0, 0.0),
         first: None,
         second: None,
