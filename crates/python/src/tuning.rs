@@ -188,7 +188,7 @@ pub fn tune(
     let fixed = settings.map(|(name, value)| (name, Some(value))).collect();
     let mut conditions: Vec<Condition> = Vec::new();
     for text in subject_to {
-        let condition = text.get("a condition")?.parse().map_err(eigenring_atlas::Error::from)?;
+        let condition = text.get("a condition")?.parse()?;
         if !conditions.contains(&condition) {
             conditions.push(condition);
         }
