@@ -326,6 +326,11 @@ impl At {
             ));
         }
         let reading = if exact { Reading::Exact } else { Reading::Balanced };
+        if let SchemeName::NonUniform(scheme) = name {
+            return work::run(py, progress, move |_| {
+                Certificate::with_intervals(scheme, shape, requirement)
+            });
+        }
         // the file, if there is one, lives as long as the work
         let kept = self.clone();
         let certificate = work::run(py, progress, move |reporter| {

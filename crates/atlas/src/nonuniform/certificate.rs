@@ -5,7 +5,7 @@
 //! certificate is checked again by computing all of it anew from the rules, in the same exact arithmetic.
 
 use super::verify::{Check, Report, Required};
-use crate::error::Error;
+use crate::error::{Accepted, Error};
 use crate::results::tool;
 use eigenring_certify::{Document, Status};
 use eigenring_nonuniform::{Scheme, Spokes, lemmas};
@@ -152,21 +152,34 @@ impl Certificate {
         }
     }
 
+    /// What is known of what it is about, computed anew; at most at a valence.
+    ///
+    /// # Errors
+    /// A scheme that is none of these, intervals for which there is none, larger valences.
+    pub fn report(&self, most: usize, required: Required) -> Result<Report, Error> {
+        let scheme: Scheme = self.scheme.parse()?;
+        match &self.knots {
+            None => Report::for_all(scheme, required),
+            Some(knots) if knots.intervals.len() > most => Err(Error::refused(
+                format!("valence {} is out of range", knots.intervals.len()),
+                Accepted::Is(format!("3 to {most}")),
+            )),
+            Some(knots) => {
+                let spokes = Spokes::new(knots.intervals.clone(), knots.next.clone())?;
+                Report::new(scheme, spokes, required)
+            }
+        }
+    }
+
     /// Whether it is unchanged since it was written, and what is not confirmed of it: everything is computed
     /// anew.
     ///
     /// # Errors
     /// A scheme that is none of these, intervals for which there is none.
     pub fn recheck(&self, text: &str) -> Result<(bool, Vec<String>), Error> {
-        let scheme: Scheme = self.scheme.parse()?;
         // what is required selects among the statements and alters none
-        let report = match &self.knots {
-            None => Report::for_all(scheme, Required::C1)?,
-            Some(knots) => {
-                let spokes = Spokes::new(knots.intervals.clone(), knots.next.clone())?;
-                Report::new(scheme, spokes, Required::C1)?
-            }
-        };
+        let report = self.report(usize::MAX, Required::C1)?;
+        let scheme = report.scheme();
         let found: Vec<Claim> = report.checks().iter().map(Claim::from).collect();
         let mut remarks = Vec::new();
         let names = |list: &[Claim]| list.iter().map(|claim| claim.name.clone()).collect::<Vec<_>>();

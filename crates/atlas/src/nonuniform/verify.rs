@@ -37,7 +37,8 @@ pub enum Required {
 }
 
 impl Required {
-    fn name(self) -> &'static str {
+    /// The word for it.
+    pub fn name(self) -> &'static str {
         match self {
             Required::C1 => "c1",
             Required::Bounded => "bounded",
@@ -105,6 +106,11 @@ impl Report {
     /// The intervals, unless it is about all.
     pub fn spokes(&self) -> Option<&Spokes> {
         self.spokes.as_ref()
+    }
+
+    /// What must hold.
+    pub fn required(&self) -> Required {
+        self.required
     }
 
     /// The statements.
