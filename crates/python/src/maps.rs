@@ -19,10 +19,12 @@ fn patches(annulus: &Annulus, valence: usize) -> Vec<PatchIndex> {
         .collect()
 }
 
-/// All patches at all pairs of n parameters from 0 to 1, in parallel; `on` makes of a patch what is evaluated.
+/// All patches at all pairs of n parameters from 0 to 1, in parallel, for one of so many maps; `on` makes of a
+/// patch what is evaluated.
 fn sampled<T: Send, F: Fn(f64, f64) -> T>(
     patches: &[PatchIndex],
     n: usize,
+    maps: f64,
     on: impl Fn(PatchIndex) -> F + Sync,
 ) -> Result<Vec<T>, Failure> {
     let count = n.checked_mul(n).and_then(|square| square.checked_mul(patches.len()));
@@ -33,6 +35,9 @@ fn sampled<T: Send, F: Fn(f64, f64) -> T>(
             format!("2 to {most}"),
         ));
     }
+    // values of parts and of the whole, and arrays
+    let bytes = maps * count.unwrap_or(0) as f64 * (2 * size_of::<T>() + 8 * 8) as f64;
+    work::check(bytes, &format!("{n} samples along an edge"))?;
     let parameter = |i: usize| i as f64 / (n - 1) as f64;
     let at_patch = |patch: &PatchIndex| -> Vec<T> {
         let at = on(*patch);
@@ -144,7 +149,7 @@ impl CharacteristicMap {
         let this = slf.clone().unbind();
         let graphs = work::run(slf.py(), None, move |_| {
             let map = this.get();
-            sampled(&map.patches, n, |patch| {
+            sampled(&map.patches, n, 1.0, |patch| {
                 let [x, y] = [0, 1].map(|axis| map.annulus.patch(&map.natural.points[axis], patch));
                 move |u, v| {
                     let [x, y] = [x.jet(u, v), y.jet(u, v)];
@@ -214,7 +219,7 @@ impl SecondOrderMaps {
         let (py, this) = (slf.py(), slf.clone().unbind());
         let graphs = work::run(py, None, move |_| {
             let SecondOrderMaps { maps, patches } = this.get();
-            let one = |which: usize| sampled(patches, n, |patch| move |u, v| maps.graph(which, patch, u, v));
+            let one = |which: usize| sampled(patches, n, 3.0, |patch| move |u, v| maps.graph(which, patch, u, v));
             Ok([one(0)?, one(1)?, one(2)?])
         })?;
         let patches = &slf.get().patches;

@@ -9,10 +9,9 @@ use crate::pickle::{self, Reduced};
 use crate::scheme::Scheme;
 use crate::solve::Asked;
 use crate::values;
-use crate::work;
+use crate::work::{self, check};
 use eigenring_atlas::analysis::Basis;
 use eigenring_atlas::curvature::{centre_table, curvatures, euler_of_smooth, summary};
-use eigenring_atlas::memory::excess;
 use eigenring_atlas::on_mesh::OnMesh;
 use eigenring_atlas::render::{Settings, Show, Subject, render};
 use eigenring_atlas::schemes::{SchemeName, Tuner};
@@ -73,22 +72,6 @@ impl Named<'_> {
         let scheme = self.scheme(py)?;
         let name = scheme.get().name()?.clone();
         Ok((Some(scheme), name.into()))
-    }
-}
-
-/// Refuses what does not fit into memory.
-fn check(bytes: f64, what: &str) -> Result<(), Failure> {
-    match excess(bytes) {
-        None => Ok(()),
-        Some([available, accepted]) => {
-            let gigabytes = |bytes: f64| format!("{:.3e} GB", bytes / 1e9);
-            let message = format!(
-                "{what} would take {} of {} of memory",
-                gigabytes(bytes),
-                gigabytes(available)
-            );
-            Err(Failure::usage(message, format!("up to {}", gigabytes(accepted))))
-        }
     }
 }
 

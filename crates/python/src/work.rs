@@ -9,6 +9,7 @@
 
 use crate::failure::Failure;
 use crate::input::shown;
+use eigenring_atlas::memory::excess;
 use eigenring_atlas::progress::{Progress, Task};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -126,6 +127,25 @@ impl Task for Running<'_> {
     fn advanced(&self) {
         self.stage.done.fetch_add(1, Ordering::Relaxed);
         self.reporter.check();
+    }
+}
+
+/// Refuses what does not fit into memory.
+///
+/// # Errors
+/// More than a part of what is available.
+pub fn check(bytes: f64, what: &str) -> Result<(), Failure> {
+    match excess(bytes) {
+        None => Ok(()),
+        Some([available, accepted]) => {
+            let gigabytes = |bytes: f64| format!("{:.3e} GB", bytes / 1e9);
+            let message = format!(
+                "{what} would take {} of {} of memory",
+                gigabytes(bytes),
+                gigabytes(available)
+            );
+            Err(Failure::usage(message, format!("up to {}", gigabytes(accepted))))
+        }
     }
 }
 

@@ -177,3 +177,18 @@ def test_numbers_of_the_wrong_kind_are_named():
             call()
         assert all(word in str(caught.value) for word in words), str(caught.value)
         assert caught.value.accepted
+
+
+def test_what_does_not_fit_into_memory_is_refused_before_it_is_begun():
+    wide = Scheme("catmull-clark").at(1000)
+    for call in (
+        lambda: MESH.subdivide("catmull-clark", 25),
+        lambda: MESH.subdivide("catmull-clark", 8).limit_mesh("catmull-clark", 10**4),
+        lambda: wide.characteristic_map().sample(10**5),
+        lambda: wide.second_order_maps().sample(10**5),
+        lambda: wide.matrix(200),
+        lambda: MESH.solve("catmull-clark", "poisson", levels=40),
+    ):
+        with pytest.raises(Error) as caught:
+            call()
+        assert caught.value.accepted
