@@ -1,9 +1,12 @@
 #!/usr/bin/env bash
+# usage: scripts/formula-proofs.sh
+#
 # Families as formula files against the built-in ones, at every valence from 3 to 64: the same statements, statuses,
 # margins and enclosures, to the last digit. Tests do it at seven valences. Needs a built command:
 #
 #     cargo build --release && scripts/formula-proofs.sh
 set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/help.sh"
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 eigenring=$(realpath "${CARGO_TARGET_DIR:-target}/release/eigenring")
 work=$(mktemp -d)

@@ -1,7 +1,13 @@
 #!/usr/bin/env bash
+# usage: scripts/starting-points.sh [N]
+#
 # The table of a valence (5, or the one that is given) tuned from the local minima of the grid and from all its
 # points: the same objective at each lambda. The tests have six lambdas of it.
+#
+# Ends with 1 if a difference is above 1e-6 of the objective; the tables themselves go to a temporary folder, and nothing is
+# left behind.
 set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/help.sh"
 cd "$(dirname "$0")/.."
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT

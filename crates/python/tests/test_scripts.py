@@ -8,7 +8,7 @@ import sys
 import pytest
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[3] / "scripts"
-NAMES = sorted(str(path.relative_to(SCRIPTS)) for path in [*SCRIPTS.glob("*.py"), *SCRIPTS.glob("peers/*.py"), SCRIPTS / "site/pages.py", SCRIPTS / "site.sh"])
+NAMES = sorted(str(path.relative_to(SCRIPTS)) for path in [*SCRIPTS.glob("*.py"), *SCRIPTS.glob("peers/*.py"), SCRIPTS / "site/pages.py", *SCRIPTS.glob("*.sh")])
 
 
 def run(name, *arguments):
@@ -16,7 +16,7 @@ def run(name, *arguments):
     return subprocess.run([*program, SCRIPTS / name, *arguments], capture_output=True, text=True, timeout=120)
 
 
-@pytest.mark.parametrize("name", [name for name in NAMES if not name.endswith("/peers.py")])
+@pytest.mark.parametrize("name", [name for name in NAMES if not name.endswith(("/peers.py", "help.sh"))])
 def test_scripts_explain_themselves(name):
     done = run(name, "--help")
     assert done.returncode == 0 and "usage:" in done.stdout and len(done.stdout) > 300, done.stderr
