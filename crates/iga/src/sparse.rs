@@ -27,6 +27,9 @@ const DISSECTED: usize = 20_000;
 /// Weights of rules are O(1), and where they cancel they leave rounding below this.
 const CANCELLED: f64 = 1e-14;
 
+/// Rows that are computed together.
+const ROWS: usize = 4096;
+
 impl Sparse {
     /// From rows whose columns ascend.
     pub fn from_rows(rows: &[Vec<(u32, f64)>], width: usize) -> Self {
@@ -110,13 +113,46 @@ impl Sparse {
         }
     }
 
+    /// From rows that are appended to the columns and values of their block, blocks at the same time.
+    fn by_blocks<S>(
+        [height, width]: [usize; 2],
+        scratch: impl Fn() -> S + Sync + Send,
+        append: impl Fn(&mut S, usize, &mut Vec<u32>, &mut Vec<f64>) + Sync,
+    ) -> Self {
+        let block = |scratch: &mut S, first: usize| {
+            let (mut ends, mut columns, mut values) = (Vec::with_capacity(ROWS), Vec::new(), Vec::new());
+            for row in first..height.min(first + ROWS) {
+                append(scratch, row, &mut columns, &mut values);
+                ends.push(columns.len());
+            }
+            (ends, columns, values)
+        };
+        let firsts: Vec<usize> = (0..height).step_by(ROWS).collect();
+        let blocks: Vec<_> = firsts.into_par_iter().map_init(scratch, block).collect();
+        let entries = blocks.iter().map(|(_, columns, _)| columns.len()).sum();
+        let mut starts = Vec::with_capacity(height + 1);
+        starts.push(0);
+        let (mut columns, mut values) = (Vec::with_capacity(entries), Vec::with_capacity(entries));
+        for (ends, own_columns, own_values) in blocks {
+            starts.extend(ends.into_iter().map(|end| columns.len() + end));
+            columns.extend(own_columns);
+            values.extend(own_values);
+        }
+        Sparse {
+            width,
+            starts,
+            columns,
+            values,
+        }
+    }
+
     /// A B.
     pub fn product(&self, other: &Sparse) -> Self {
         let scratch = || (vec![0.0; other.width], vec![false; other.width], Vec::new());
-        let rows: Vec<Vec<(u32, f64)>> = (0..self.height())
-            .into_par_iter()
-            .with_min_len(4096)
-            .map_init(scratch, |(sums, seen, touched), row| {
+        Sparse::by_blocks(
+            [self.height(), other.width],
+            scratch,
+            |(sums, seen, touched), row, columns, values| {
                 for (k, a) in self.row(row) {
                     for (column, b) in other.row(k) {
                         if !seen[column] {
@@ -127,25 +163,28 @@ impl Sparse {
                     }
                 }
                 touched.sort_unstable();
-                let result = touched.iter().map(|&column| (column, sums[column as usize])).collect();
                 for column in touched.drain(..) {
-                    sums[column as usize] = 0.0;
+                    columns.push(column);
+                    values.push(std::mem::take(&mut sums[column as usize]));
                     seen[column as usize] = false;
                 }
-                result
-            })
-            .collect();
-        Sparse::from_rows(&rows, other.width)
+            },
+        )
     }
 
     /// Without weights that have cancelled.
     pub fn pruned(&self) -> Self {
-        let kept = |row: usize| {
-            let row = self.row(row).filter(|(_, w)| w.abs() > CANCELLED);
-            row.map(|(column, w)| (column as u32, w)).collect()
-        };
-        let rows: Vec<Vec<(u32, f64)>> = (0..self.height()).map(kept).collect();
-        Sparse::from_rows(&rows, self.width)
+        let size = [self.height(), self.width];
+        Sparse::by_blocks(
+            size,
+            || (),
+            |(), row, columns, values| {
+                for (column, value) in self.row(row).filter(|(_, w)| w.abs() > CANCELLED) {
+                    columns.push(column as u32);
+                    values.push(value);
+                }
+            },
+        )
     }
 
     /// The rows and columns that have a number, in its order; numbers ascend.
