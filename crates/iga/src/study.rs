@@ -322,9 +322,10 @@ impl<'a> Study<'a> {
 
     /// About how many bytes a level takes, with as many eigenvalues, or for the solution of a problem.
     /// Without the factor some 2300 a face at 10^6 faces: mesh, space, matrix, a copy of it without held
-    /// unknowns, or the coarser ones; 1100 remain beside a factor. Factors have 20 to 27 n log2 n entries
-    /// (squares, fans and a cube of 5*10^4 to 10^6 unknowns), for which 30 are counted. Tables of solution and errors have, of each annulus at an extraordinary
-    /// vertex, two matrices of 45 control points over the `2N + 8` of a face.
+    /// unknowns, or the coarser ones; 1100 remain beside a factor. Factors have 20 to 26 n log2 n entries
+    /// (squares, fans and a cube of 10^5 to 10^6 unknowns), for which 30 are counted. Tables of solution and
+    /// errors have, of each annulus at an extraordinary vertex, two matrices of 45 control points over the
+    /// `2N + 8` of a face.
     pub fn bytes(&self, level: usize, options: &Options, eigenvalues: Option<usize>) -> f64 {
         let first = match &self.levels {
             Levels::Uniform(..) => self.mesh.face_count(),
