@@ -19,8 +19,8 @@ fn patches(annulus: &Annulus, valence: usize) -> Vec<PatchIndex> {
         .collect()
 }
 
-/// All patches at all pairs of n parameters from 0 to 1, in parallel, for one of so many maps; `on` makes of a
-/// patch what is evaluated.
+/// All patches at all pairs of n parameters from 0 to 1, in parallel, for one of so many maps; `on` makes of
+/// a patch what is evaluated.
 fn sampled<T: Send, F: Fn(f64, f64) -> T>(
     patches: &[PatchIndex],
     n: usize,

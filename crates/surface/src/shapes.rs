@@ -336,8 +336,8 @@ pub fn fan(n: usize) -> Mesh {
     )
 }
 
-/// [`fan`] with these knot intervals on the edges at its middle, in turn and counter-clockwise, repeated if there
-/// are fewer than n; strips of other edges have 1.
+/// [`fan`] with these knot intervals on the edges at its middle, in turn and counter-clockwise, repeated if
+/// there are fewer than n; strips of other edges have 1.
 pub fn uneven_fan(n: usize, intervals: &[f64]) -> Mesh {
     let mut mesh = fan(n);
     let topology = Topology::unchecked(&mesh);
