@@ -32,8 +32,8 @@ pub fn samples(surface: &Surface<'_>, places: &[Place]) -> Result<Vec<Sample>, E
 const AT_ONCE: usize = 1 << 14;
 
 /// How many places make a part, of which each is evaluated on one thread. It makes anew what its faces need:
-/// where places follow their faces, only a face at an end of a part is in another too; elsewhere a face may be
-/// in all, and there are no more of these than threads.
+/// where places follow their faces, only a face at an end of a part is in another too; elsewhere a face may
+/// be in all, and there are no more of these than threads.
 fn part(count: usize, face: impl Fn(usize) -> u32) -> usize {
     match (0..count).is_sorted_by_key(face) {
         true => AT_ONCE,

@@ -1,12 +1,12 @@
 //! An order of elimination by nested dissection (George 1973).
 //!
-//! Unknowns have places, as the mean of a control point's neighbourhood is near it, and the matrix joins those
-//! that share a face. A plane halves them; those of one half that are joined to the other are a separator and
-//! are eliminated last, and both sides go the same way. A separator is short where its plane runs along lines
-//! of the mesh: planes across the axes are tried, and those along the edges of some unknowns. Of the square of
-//! 10^6 unknowns the factor has two thirds of the entries that it has with approximate minimum degree. At
-//! vertices of high valence, where no plane follows the lines of all sectors, it has more; so the caller
-//! compares.
+//! Unknowns have places, as the mean of a control point's neighbourhood is near it, and the matrix joins
+//! those that share a face. A plane halves them; those of one half that are joined to the other are a
+//! separator and are eliminated last, and both sides go the same way. A separator is short where its plane
+//! runs along lines of the mesh: planes across the axes are tried, and those along the edges of some
+//! unknowns. Of the square of 10^6 unknowns the factor has two thirds of the entries that it has with
+//! approximate minimum degree. At vertices of high valence, where no plane follows the lines of all sectors,
+//! it has more; so the caller compares.
 
 use crate::sparse::Sparse;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};

@@ -116,8 +116,8 @@ fn what_has_no_elements_with_intervals_is_refused() {
     assert!(matches!(closed, Err(Error::Open)));
 }
 
-/// At ratio 100 the subdominant eigenvalue is 0.9736, and limits would be off by 1e-5 after the multiplications
-/// that suffice at smaller ratios.
+/// At ratio 100 the subdominant eigenvalue is 0.9736, and limits would be off by 1e-5 after the
+/// multiplications that suffice at smaller ratios.
 #[test]
 fn limits_that_come_too_slowly_are_refused() {
     let study = |ratio: f64| {

@@ -1,5 +1,5 @@
-//! What is given: numbers, arrays and words of Python, refused where they are not what is asked for, under the
-//! name of what they are for.
+//! What is given: numbers, arrays and words of Python, refused where they are not what is asked for, under
+//! the name of what they are for.
 
 use crate::failure::Failure;
 use eigenring_atlas::schemes::{MAX_VALENCE, setting};

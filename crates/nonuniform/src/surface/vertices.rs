@@ -21,8 +21,8 @@ use std::sync::Arc;
 /// Rings from which five of the next level follow.
 const RINGS: usize = 3;
 
-/// Multiplications by S after which rows are limits, if its other eigenvalues are at most [`SLOWEST`]: 0.9^400 is
-/// 5e-19.
+/// Multiplications by S after which rows are limits, if its other eigenvalues are at most [`SLOWEST`]:
+/// 0.9^400 is 5e-19.
 const LIMIT: usize = 400;
 const SLOWEST: f64 = 0.9;
 
