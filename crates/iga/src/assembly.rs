@@ -139,6 +139,8 @@ pub(crate) fn assemble(
     let mut sums = vec![pattern(space, tables); forms.len()];
     let mut right = vec![0.0; space.positions.len()];
     let integrands = Integrands { forms, load };
+    // their memory serves one block after the other
+    let mut parts: Vec<Local> = Vec::new();
     let mut next = 0;
     while next < space.cells.len() {
         let (first, mut entries) = (next, 0);
@@ -146,21 +148,26 @@ pub(crate) fn assemble(
             entries += tables[&space.cells[next].kind].columns.len().pow(2);
             next += 1;
         }
-        let parts: Vec<Local> = (first..next)
+        let count = next - first;
+        parts.resize_with(parts.len().max(count), Local::default);
+        let parts = &mut parts[..count];
+        let done: Vec<Result<(), Error>> = (parts.par_iter_mut(), first..next)
             .into_par_iter()
-            .map_init(Room::default, |room, face| integrands.local(space, tables, face, room))
-            .collect::<Result<_, _>>()?;
-        for part in &parts {
+            .map_init(Room::default, |room, (part, face)| {
+                integrands.local(space, tables, face, room, part)
+            })
+            .collect();
+        // the first of all errors, whichever thread came first
+        done.into_iter().collect::<Result<(), _>>()?;
+        for part in parts.iter() {
             let Footprint { ids, places, .. } = &part.footprint;
             ids.iter()
                 .zip(places)
                 .for_each(|(&id, &k)| right[id as usize] += part.sums.load[k]);
         }
         for (form, sum) in sums.iter_mut().enumerate() {
-            gather(sum, &parts, form);
+            gather(sum, parts, form);
         }
-        // on all threads, as there are millions of small ones
-        parts.into_par_iter().for_each(drop);
     }
     Ok((sums, right))
 }

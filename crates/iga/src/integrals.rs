@@ -27,6 +27,7 @@ pub(crate) type Tables = BTreeMap<Kind, Table>;
 
 /// The unknowns of a face in ascending order, and how its control points depend on them; `None` if each is
 /// an unknown itself, the place in the face with each.
+#[derive(Default)]
 pub(crate) struct Footprint {
     pub ids: Vec<u32>,
     pub places: Vec<usize>,
@@ -150,6 +151,7 @@ impl pulp::WithSimd for Fill<'_> {
 }
 
 /// Matrices and load over some points: the control points of an annulus or of a face, or unknowns.
+#[derive(Default)]
 pub(crate) struct Sums {
     width: usize,
     pub matrices: Vec<Vec<f64>>,
@@ -158,11 +160,21 @@ pub(crate) struct Sums {
 
 impl Sums {
     fn zero(width: usize, forms: usize) -> Self {
-        Sums {
-            width,
-            matrices: vec![vec![0.0; width * width]; forms],
-            load: vec![0.0; width],
+        let mut sums = Sums::default();
+        sums.clear(width, forms);
+        sums
+    }
+
+    /// Zero over other points, in the memory that it has.
+    fn clear(&mut self, width: usize, forms: usize) {
+        self.width = width;
+        self.matrices.resize_with(forms, Vec::new);
+        for entries in self.matrices.iter_mut() {
+            entries.clear();
+            entries.resize(width * width, 0.0);
         }
+        self.load.clear();
+        self.load.resize(width, 0.0);
     }
 
     /// Adds the square of a patch on some rows, from what it has below the diagonal, so that the sum is
@@ -239,6 +251,7 @@ impl pulp::WithSimd for Combined<'_> {
 }
 
 /// Matrices and load of one face over its footprint, whose places they follow.
+#[derive(Default)]
 pub(crate) struct Local {
     pub footprint: Footprint,
     pub sums: Sums,
@@ -317,13 +330,14 @@ impl Integrands<'_> {
         face: usize,
         data: &[Data],
         room: &mut Room,
-    ) -> Result<Sums, Error> {
+        sums: &mut Sums,
+    ) -> Result<(), Error> {
         let forms = self.forms.len();
-        let mut sums = Sums::zero(data.len(), forms);
+        sums.clear(data.len(), forms);
         for annulus in &table.annuli {
             match &annulus.lift {
                 None => annulus.patches(data, |patch, control| {
-                    self.over(space, face, patch, control, room, &mut sums)
+                    self.over(space, face, patch, control, room, sums)
                 })?,
                 Some(lift) => {
                     let mut own = Sums::zero(lift.values.rows(), forms);
@@ -338,21 +352,28 @@ impl Integrands<'_> {
                 }
             }
         }
-        Ok(sums)
+        Ok(())
     }
 
-    /// The integrals over a face, of the functions of its unknowns.
-    pub fn local(&self, space: &Space, tables: &Tables, face: usize, room: &mut Room) -> Result<Local, Error> {
+    /// The integrals over a face, of the functions of its unknowns, in place of those of another.
+    pub fn local(
+        &self,
+        space: &Space,
+        tables: &Tables,
+        face: usize,
+        room: &mut Room,
+        local: &mut Local,
+    ) -> Result<(), Error> {
         let table = &tables[&space.cells[face].kind];
         let (points, data) = points_of(space, table, face);
-        let mut sums = self.over_face(space, table, face, &data, room)?;
-        let footprint = footprint(space, &points);
-        if let Some(weights) = &footprint.weights {
-            let mut own = Sums::zero(footprint.ids.len(), self.forms.len());
-            own.add_combined(&sums, |_| weights, weights);
-            sums = own;
+        self.over_face(space, table, face, &data, room, &mut local.sums)?;
+        local.footprint = footprint(space, &points);
+        if let Some(weights) = &local.footprint.weights {
+            let mut own = Sums::zero(local.footprint.ids.len(), self.forms.len());
+            own.add_combined(&local.sums, |_| weights, weights);
+            local.sums = own;
         }
-        Ok(Local { footprint, sums })
+        Ok(())
     }
 }
 
@@ -365,7 +386,8 @@ pub(crate) fn loads(space: &Space, tables: &Tables, f: &Load<'_>) -> Result<Vec<
     let one = |room: &mut Room, face: usize| -> Result<(Vec<u32>, Vec<f64>), Error> {
         let table = &tables[&space.cells[face].kind];
         let (points, data) = points_of(space, table, face);
-        let sums = integrands.over_face(space, table, face, &data, room)?;
+        let mut sums = Sums::default();
+        integrands.over_face(space, table, face, &data, room, &mut sums)?;
         Ok((points, sums.load))
     };
     let parts: Vec<_> = (0..space.cells.len())
