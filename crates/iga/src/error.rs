@@ -150,6 +150,14 @@ pub enum Error {
         /// What may be given.
         accepted: &'static str,
     },
+    /// The factor has more entries than 32 bits count, or than memory has room for.
+    #[error(
+        "the Cholesky factor of {unknowns} unknowns is too large: accepted are fewer levels or, in spaces without knot intervals, --solver multigrid"
+    )]
+    TooLarge {
+        /// The size of the matrix.
+        unknowns: usize,
+    },
     /// The factorisation failed.
     #[error(
         "the matrix of {unknowns} unknowns is not positive definite in floating point: accepted are meshes and schemes of which it is"

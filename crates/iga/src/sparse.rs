@@ -212,9 +212,12 @@ impl Sparse {
 
     /// The factor of a symmetric matrix, which makes room for it. The order of elimination has approximate
     /// minimum degree or, of two whose entries are counted, follows the places of the unknowns.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] before anything is factored, [`Error::NotDefinite`] for a pivot that is not positive.
     pub fn factor(self, places: Option<&[[f64; 3]]>) -> Result<Factor, Error> {
         let unknowns = self.height();
-        let refused = || Error::NotDefinite { unknowns };
+        let too_large = || Error::TooLarge { unknowns };
         let half = (self.columns.len() + unknowns) / 2;
         let (mut starts, mut rows, mut values) = (vec![0_u32], Vec::with_capacity(half), Vec::with_capacity(half));
         for column in 0..unknowns {
@@ -222,7 +225,7 @@ impl Sparse {
                 rows.push(row as u32);
                 values.push(value);
             }
-            starts.push(u32::try_from(rows.len()).map_err(|_| refused())?);
+            starts.push(u32::try_from(rows.len()).map_err(|_| too_large())?);
         }
         let pattern = SymbolicSparseColMat::new_checked(unknowns, unknowns, starts, None, rows);
         let analysed = |order: SymmetricOrdering<'_, u32>| {
@@ -240,11 +243,11 @@ impl Sparse {
         let (by_degree, by_places) = rayon::join(|| analysed(SymmetricOrdering::Amd), || places.map(by_places));
         drop(self);
         let found = [Some(by_degree), by_places].into_iter().flatten().flatten();
-        let symbolic = found.min_by_key(SymbolicCholesky::len_val).ok_or_else(refused)?;
+        let symbolic = found.min_by_key(SymbolicCholesky::len_val).ok_or_else(too_large)?;
         let matrix = SparseColMat::new(pattern, values);
         let mut values = vec![0.0; symbolic.len_val()];
         let room = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default());
-        let mut room = MemBuffer::try_new(room).map_err(|_| refused())?;
+        let mut room = MemBuffer::try_new(room).map_err(|_| too_large())?;
         symbolic
             .factorize_numeric_llt(
                 &mut values,
@@ -255,7 +258,7 @@ impl Sparse {
                 MemStack::new(&mut room),
                 Spec::default(),
             )
-            .map_err(|_| refused())?;
+            .map_err(|_| Error::NotDefinite { unknowns })?;
         Ok(Factor { symbolic, values })
     }
 }

@@ -1,6 +1,7 @@
 //! What no public function shows: nestedness, invariants of the matrices, deflation, the operator of Laplace
 //! and Beltrami.
 
+use crate::Error;
 use crate::around::Around;
 use crate::assembly::assemble;
 use crate::boundary::nitsche;
@@ -14,6 +15,7 @@ use crate::patch::bicubic;
 use crate::patch::{Control, Data, Jets, Maps, Wanted};
 use crate::solution;
 use crate::space::{Depth, Ends, Space};
+use crate::sparse::Sparse;
 use eigenring_nonuniform::{FirstLevel, Outside, Refinement};
 use eigenring_scheme::{Definition, Spec};
 use eigenring_surface::{Boundary, Mesh, Refiner, Rules, shapes};
@@ -293,4 +295,11 @@ fn the_laplacian_on_a_surface_bends_with_it() {
             "{name}: {found:?} for {expected}"
         );
     }
+}
+
+/// Eigenvalues 3 and -1.
+#[test]
+fn a_matrix_with_a_negative_eigenvalue_has_no_factor() {
+    let matrix = Sparse::from_rows(&[vec![(0, 1.0), (1, 2.0)], vec![(0, 2.0), (1, 1.0)]], 2);
+    assert!(matches!(matrix.factor(None), Err(Error::NotDefinite { unknowns: 2 })));
 }
