@@ -214,7 +214,8 @@ impl Sparse {
     /// minimum degree or, of two whose entries are counted, follows the places of the unknowns.
     ///
     /// # Errors
-    /// [`Error::TooLarge`] before anything is factored, [`Error::NotDefinite`] for a pivot that is not positive.
+    /// [`Error::TooLarge`] before anything is factored, [`Error::NotDefinite`] for a pivot that is not
+    /// positive.
     pub fn factor(self, places: Option<&[[f64; 3]]>) -> Result<Factor, Error> {
         let unknowns = self.height();
         let too_large = || Error::TooLarge { unknowns };
