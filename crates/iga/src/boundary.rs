@@ -49,8 +49,8 @@ fn sample(space: &Space, edge: &Edge, s: f64, weight: f64) -> Sample {
         for (sums, coordinate) in x.iter_mut().zip(space.positions[v as usize]) {
             sums.iter_mut().zip(jet).for_each(|(sum, j)| *sum += coordinate * j);
         }
-        for &(id, w) in &space.transform[v as usize] {
-            let row = rows.entry(id).or_default();
+        for (id, w) in space.transform.row(v as usize) {
+            let row = rows.entry(id as u32).or_default();
             row.iter_mut().zip(jet).for_each(|(sum, j)| *sum += w * j);
         }
     }

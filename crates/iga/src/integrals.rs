@@ -25,53 +25,31 @@ pub(crate) type Load<'a> = dyn Fn(&Geometry) -> f64 + Sync + 'a;
 
 pub(crate) type Tables = BTreeMap<Kind, Table>;
 
-/// The unknowns of a face in ascending order, and how its control points depend on them; `None` if each is
-/// an unknown itself, the place in the face with each.
-#[derive(Default)]
-pub(crate) struct Footprint {
-    pub ids: Vec<u32>,
-    pub places: Vec<usize>,
-    weights: Option<Matrix<f64>>,
-}
-
-pub(crate) fn footprint(space: &Space, points: &[u32]) -> Footprint {
-    let own = |p: &u32| matches!(space.transform[*p as usize][..], [(id, w)] if id == *p && w == 1.0);
-    if points.iter().all(own) {
-        let mut places: Vec<usize> = (0..points.len()).collect();
-        places.sort_unstable_by_key(|&k| points[k]);
-        return Footprint {
-            ids: places.iter().map(|&k| points[k]).collect(),
-            places,
-            weights: None,
-        };
+/// The unknowns of a face, and how its control points depend on them; `None` if each is an unknown itself.
+fn unknowns(space: &Space, points: &[u32], ids: &mut Vec<u32>) -> Option<Matrix<f64>> {
+    ids.clear();
+    if points.iter().all(|&p| space.transform.is_unit(p as usize)) {
+        ids.extend(points);
+        return None;
     }
-    let rows = || points.iter().map(|p| &space.transform[*p as usize]);
-    let mut ids: Vec<u32> = rows().flatten().map(|(id, _)| *id).collect();
+    let rows = || points.iter().map(|&p| space.transform.row(p as usize));
+    ids.extend(rows().flatten().map(|(id, _)| id as u32));
     ids.sort_unstable();
     ids.dedup();
     let weights = rows().map(|row| {
         let mut weights = vec![0.0; ids.len()];
         for (id, w) in row {
-            weights[ids.binary_search(id).expect("the union holds it")] += w;
+            weights[ids.binary_search(&(id as u32)).expect("the union holds it")] += w;
         }
         weights
     });
-    let weights = Matrix::from_rows(weights.collect(), ids.len());
-    Footprint {
-        places: (0..ids.len()).collect(),
-        ids,
-        weights: Some(weights),
-    }
+    Some(Matrix::from_rows(weights.collect(), ids.len()))
 }
 
-/// The control points of a face that its table uses.
-pub(crate) fn ids_of<'a>(space: &'a Space, table: &'a Table, face: usize) -> impl Iterator<Item = u32> + 'a {
-    table.columns.iter().map(move |&c| space.cells[face].points[c])
-}
-
-/// The same with where they are; coefficients are zero.
+/// The control points of a face that its table uses, with where they are; coefficients are zero.
 pub(crate) fn points_of(space: &Space, table: &Table, face: usize) -> (Vec<u32>, Vec<Data>) {
-    let points: Vec<u32> = ids_of(space, table, face).collect();
+    let own = &space.cells[face].points;
+    let points: Vec<u32> = table.columns.iter().map(|&column| own[column]).collect();
     let data = |v: &u32| {
         let [x, y, z] = space.positions[*v as usize];
         [0.0, x, y, z]
@@ -250,10 +228,10 @@ impl pulp::WithSimd for Combined<'_> {
     }
 }
 
-/// Matrices and load of one face over its footprint, whose places they follow.
+/// Matrices and load of one face over its unknowns.
 #[derive(Default)]
 pub(crate) struct Local {
-    pub footprint: Footprint,
+    pub ids: Vec<u32>,
     pub sums: Sums,
 }
 
@@ -367,10 +345,9 @@ impl Integrands<'_> {
         let table = &tables[&space.cells[face].kind];
         let (points, data) = points_of(space, table, face);
         self.over_face(space, table, face, &data, room, &mut local.sums)?;
-        local.footprint = footprint(space, &points);
-        if let Some(weights) = &local.footprint.weights {
-            let mut own = Sums::zero(local.footprint.ids.len(), self.forms.len());
-            own.add_combined(&local.sums, |_| weights, weights);
+        if let Some(weights) = unknowns(space, &points, &mut local.ids) {
+            let mut own = Sums::zero(local.ids.len(), self.forms.len());
+            own.add_combined(&local.sums, |_| &weights, &weights);
             local.sums = own;
         }
         Ok(())

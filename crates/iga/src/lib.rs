@@ -17,6 +17,7 @@ mod multigrid;
 mod nested;
 mod norms;
 mod ordering;
+mod part;
 mod patch;
 mod problem;
 pub mod solution;

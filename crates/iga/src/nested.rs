@@ -140,7 +140,5 @@ pub(crate) fn refinement(mesh: &Mesh, space: &Space, fine: &Space) -> Result<Spa
 /// P over unknowns.
 pub(crate) fn embedding(mesh: &Mesh, space: &Space, fine: &Space) -> Result<Sparse, Error> {
     let refinement = refinement(mesh, space, fine)?;
-    let coarse = sparse(space.transform.clone(), space.positions.len());
-    let inverse = sparse(fine.inverse.clone(), fine.positions.len());
-    Ok(inverse.product(&refinement.product(&coarse)).pruned())
+    Ok(fine.inverse.product(&refinement.product(&space.transform)).pruned())
 }

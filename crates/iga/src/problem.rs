@@ -174,8 +174,7 @@ fn right_hand_side(problem: Problem, u: &Solution, at: &Geometry) -> f64 {
 
 /// Coefficients of unknowns.
 pub(crate) fn coefficients(space: &Space, values: &[f64]) -> Vec<f64> {
-    let row = |row: &Vec<(u32, f64)>| row.iter().map(|&(b, w)| w * values[b as usize]).sum();
-    space.transform.iter().map(row).collect()
+    space.transform.times(values)
 }
 
 /// Solves a problem in a space and measures the error. `embeddings` are those of the coarser spaces, coarsest
@@ -305,8 +304,9 @@ pub(crate) fn run(
 /// quadrature leaves there would be a source at one point otherwise.
 fn balance(space: &Space, tables: &Tables, right: &mut [f64]) -> Result<(), Error> {
     let mut weights = vec![0.0; right.len()];
-    for (row, load) in space.transform.iter().zip(loads(space, tables, &|_| 1.0)?) {
-        row.iter().for_each(|&(id, w)| weights[id as usize] += w * load);
+    for (row, load) in loads(space, tables, &|_| 1.0)?.into_iter().enumerate() {
+        let terms = space.transform.row(row);
+        terms.for_each(|(id, w)| weights[id] += w * load);
     }
     let excess = right.iter().sum::<f64>() / weights.iter().sum::<f64>();
     right.iter_mut().zip(weights).for_each(|(b, w)| *b -= excess * w);

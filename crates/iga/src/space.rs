@@ -9,6 +9,7 @@
 use crate::Error;
 use crate::around::Around;
 use crate::patch::Rule;
+use crate::sparse::Sparse;
 use crate::tables::{Known, Table, element, far, gauss};
 use eigenring_nonuniform::{Element, grid};
 use eigenring_scheme::{Fan, Lattice, Numbering};
@@ -76,9 +77,9 @@ pub(crate) struct Space {
     /// Control points of the boundary.
     pub boundary: Vec<bool>,
     /// Coefficients in unknowns.
-    pub transform: Rows,
+    pub transform: Sparse,
     /// Unknowns in coefficients, as far as the ends have them.
-    pub inverse: Rows,
+    pub inverse: Sparse,
     /// The ghosts of boundary vertices.
     pub layers: Vec<(u32, Corner)>,
     pub edges: Vec<Edge>,
@@ -146,9 +147,6 @@ pub(crate) enum Corner {
     Two([u32; 3], [u32; 3]),
 }
 
-/// Weights by rows.
-pub(crate) type Rows = Vec<Vec<(u32, f64)>>;
-
 /// What equal intervals have for [`across`].
 pub(crate) const EQUAL: f64 = 2.0;
 
@@ -181,9 +179,8 @@ fn back_across(ends: Ends, r: f64) -> [[f64; 3]; 3] {
 /// Coefficients in unknowns by the relation across the boundary, or the other way round; `None` where two
 /// corners of the domain are neighbours. `line` is the relation at a vertex towards each of its inner
 /// neighbours.
-fn transform(count: usize, layers: &[(u32, Corner)], line: impl Fn(u32, usize) -> [[f64; 3]; 3]) -> Option<Rows> {
-    let mut rows: Rows = (0..count as u32).map(|i| vec![(i, 1.0)]).collect();
-    let kept = |row: Vec<(u32, f64)>| row.into_iter().filter(|(_, w)| *w != 0.0).collect();
+fn transform(count: usize, layers: &[(u32, Corner)], line: impl Fn(u32, usize) -> [[f64; 3]; 3]) -> Option<Sparse> {
+    let mut rows: BTreeMap<u32, Vec<(u32, f64)>> = BTreeMap::new();
     let single = |(v, corner): &(u32, Corner)| match corner {
         Corner::One(_, ghost) => Some((*v, *ghost)),
         Corner::Two(..) => None,
@@ -194,7 +191,8 @@ fn transform(count: usize, layers: &[(u32, Corner)], line: impl Fn(u32, usize) -
             Corner::One(inside, ghost) => {
                 let (ids, line) = ([*ghost, *v, *inside], line(*v, 0));
                 for i in 0..2 {
-                    rows[ids[i] as usize] = kept((0..3).map(|k| (ids[k], line[i][k])).collect());
+                    let terms = (0..3).map(|k| (ids[k], line[i][k]));
+                    rows.insert(ids[i], terms.filter(|(_, w)| *w != 0.0).collect());
                 }
             }
             Corner::Two([a, b, diagonal], [west, both, south]) => {
@@ -204,12 +202,12 @@ fn transform(count: usize, layers: &[(u32, Corner)], line: impl Fn(u32, usize) -
                 let [first, second] = [0, 1].map(|direction| line(*v, direction));
                 for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                     let terms = (0..9).map(|k| (ids[k / 3][k % 3], first[i][k / 3] * second[j][k % 3]));
-                    rows[ids[i][j] as usize] = kept(terms.collect());
+                    rows.insert(ids[i][j], terms.filter(|(_, w)| *w != 0.0).collect());
                 }
             }
         }
     }
-    Some(rows)
+    Some(Sparse::identity_but(count, rows))
 }
 
 /// Coefficients in unknowns and unknowns in coefficients, see [`transform`]. `ratio` is that of [`across`] at
@@ -219,7 +217,7 @@ pub(crate) fn transforms(
     layers: &[(u32, Corner)],
     ends: Ends,
     ratio: impl Fn(u32, usize) -> f64,
-) -> Option<[Rows; 2]> {
+) -> Option<[Sparse; 2]> {
     let forth = transform(count, layers, |v, direction| across(ends, ratio(v, direction)))?;
     let back = transform(count, layers, |v, direction| back_across(ends, ratio(v, direction)))?;
     Some([forth, back])

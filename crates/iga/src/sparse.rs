@@ -11,6 +11,7 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par, Side, Spec};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 
 /// A matrix by rows, columns ascending in each.
 #[derive(Clone, Debug)]
@@ -48,6 +49,39 @@ impl Sparse {
             columns,
             values,
         }
+    }
+
+    /// The identity but for some rows, by number; their columns are in any order.
+    pub fn identity_but(size: usize, mut rows: BTreeMap<u32, Vec<(u32, f64)>>) -> Self {
+        let mut starts = Vec::with_capacity(size + 1);
+        starts.push(0);
+        let (mut columns, mut values) = (Vec::with_capacity(size), Vec::with_capacity(size));
+        for row in 0..size as u32 {
+            match rows.remove(&row) {
+                None => {
+                    columns.push(row);
+                    values.push(1.0);
+                }
+                Some(mut entries) => {
+                    entries.sort_unstable_by_key(|(column, _)| *column);
+                    columns.extend(entries.iter().map(|(column, _)| *column));
+                    values.extend(entries.iter().map(|(_, value)| *value));
+                }
+            }
+            starts.push(columns.len());
+        }
+        Sparse {
+            width: size,
+            starts,
+            columns,
+            values,
+        }
+    }
+
+    /// Whether a row is that of the identity.
+    pub fn is_unit(&self, row: usize) -> bool {
+        let range = self.starts[row]..self.starts[row + 1];
+        range.len() == 1 && self.columns[range.start] as usize == row && self.values[range.start] == 1.0
     }
 
     pub fn height(&self) -> usize {

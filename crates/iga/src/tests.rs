@@ -3,11 +3,11 @@
 
 use crate::Error;
 use crate::around::Around;
-use crate::assembly::assemble;
+use crate::assembly::{Bounds, assemble, assemble_within};
 use crate::boundary::nitsche;
 use crate::geometry::Geometry;
 use crate::hybrid;
-use crate::integrals::{Form, Load};
+use crate::integrals::{Form, Integrands, Load};
 use crate::multigrid::Multigrid;
 use crate::nested::{embedding, refinement};
 use crate::norms::errors;
@@ -19,6 +19,7 @@ use crate::sparse::Sparse;
 use eigenring_nonuniform::{FirstLevel, Outside, Refinement};
 use eigenring_scheme::{Definition, Spec};
 use eigenring_surface::{Boundary, Mesh, Refiner, Rules, shapes};
+use std::collections::BTreeMap;
 
 fn rules(name: &str) -> Rules {
     Rules::new(Definition::Family(name.parse::<Spec>().expect("a scheme")))
@@ -142,8 +143,7 @@ fn coordinates_have_the_energy_of_the_area() {
     let rules = rules("lambda:lambda=0.39");
     let mut space = space(&shapes::fan(5), &rules, Ends::Open);
     // over control points and ghosts
-    let own = |i: usize| vec![(i as u32, 1.0)];
-    space.transform = (0..space.positions.len()).map(own).collect();
+    space.transform = Sparse::identity_but(space.positions.len(), BTreeMap::new());
     let tables = space.tables(4, Depth::Area, false);
     let (matrices, weights) = assemble(&space, &tables, &[Form::Stiffness], Some(&|_| 1.0)).expect("matrices");
     let area: f64 = weights.iter().sum();
@@ -178,7 +178,7 @@ fn matrices_have_the_invariants_of_the_prototype() {
         let mut space = space(&mesh, &rules, Ends::Open);
         assert_eq!(Some(space.positions.len() as u64), case["dof"].as_u64());
         assert_eq!(Some(space.inner as u64), case["interior_dof"].as_u64());
-        space.transform = (0..space.positions.len()).map(|i| vec![(i as u32, 1.0)]).collect();
+        space.transform = Sparse::identity_but(space.positions.len(), BTreeMap::new());
         let tables = space.tables(10, Depth::Area, false);
         let (matrices, _) = assemble(&space, &tables, &[Form::Stiffness, Form::Mass], None).expect("matrices");
         for (name, matrix) in ["K", "M"].into_iter().zip(&matrices) {
@@ -197,6 +197,62 @@ fn matrices_have_the_invariants_of_the_prototype() {
             }
         }
     }
+}
+
+/// On a torus of three by three quads the grid of a face has points twice. Coordinates have twice the area as
+/// their energy, and functions of the coarse space have the same norm in the fine one.
+#[test]
+fn a_point_that_a_face_has_twice_counts_twice() {
+    let rules = rules("catmull-clark");
+    let coarse = shapes::torus(3, 3);
+    let fine = refined(&coarse, &rules);
+    let all = [space(&coarse, &rules, Ends::Open), space(&fine, &rules, Ends::Open)];
+    let up = embedding(&coarse, &all[0], &all[1]).expect("a matrix");
+    let function: Vec<f64> = (0..up.width).map(|k| (k as f64).sin()).collect();
+    let mut norms = Vec::new();
+    for (space, v) in all.iter().zip([function.clone(), up.times(&function)]) {
+        let tables = space.tables(10, Depth::Area, false);
+        let forms = [Form::Stiffness, Form::Mass];
+        let (matrices, weights) = assemble(space, &tables, &forms, Some(&|_| 1.0)).expect("matrices");
+        let area: f64 = weights.iter().sum();
+        let energy = (0..3).map(|axis| {
+            let x: Vec<f64> = space.positions.iter().map(|p| p[axis]).collect();
+            dot(&x, &matrices[0].times(&x))
+        });
+        let energy: f64 = energy.sum();
+        assert!((energy / (2.0 * area) - 1.0).abs() < 1e-14, "{energy} for twice {area}");
+        norms.push(dot(&v, &matrices[1].times(&v)));
+    }
+    // the measure is no polynomial: quadrature is off by 4e-7
+    assert!((norms[0] / norms[1] - 1.0).abs() < 1e-6, "{norms:?}");
+}
+
+/// Whatever the bounds on memory, the bits are the same.
+#[test]
+fn parts_may_be_added_up_early() {
+    let rules = rules("lambda:lambda=0.39");
+    let mut mesh = shapes::fan(12);
+    (0..3).for_each(|_| mesh = refined(&mesh, &rules));
+    let space = space(&mesh, &rules, Ends::Open);
+    let tables = space.tables(4, Depth::Area, false);
+    let forms = [Form::Mass, Form::Stiffness];
+    let of = |parts, entries| {
+        let integrands = Integrands {
+            forms: &forms,
+            load: Some(&|at: &Geometry| at.x[0]),
+        };
+        let bounds = Bounds { parts, entries };
+        let (matrices, load) = assemble_within(bounds, &space, &tables, integrands).expect("matrices");
+        let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+        let all = matrices
+            .iter()
+            .map(|m| (m.starts.clone(), m.columns.clone(), bits(&m.values)));
+        (all.collect::<Vec<_>>(), bits(&load))
+    };
+    assert!(space.cells.len() > 3000);
+    let at_once = of(100, usize::MAX);
+    assert!(of(1, 0) == at_once);
+    assert!(of(2, 100_000) == at_once);
 }
 
 /// Nitsche's form is as well conditioned as the others, and what the two solvers leave is rounding and the
