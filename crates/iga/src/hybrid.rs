@@ -6,7 +6,8 @@
 //! layer of ghosts, which no function of an element reads, carries the intervals that the boundary mirrors.
 
 use crate::Error;
-use crate::space::{Cell, Corner, Edge, Ends, Kind, Space, extended, transforms};
+use crate::cells::{Cells, Kind};
+use crate::space::{Corner, Edge, Ends, Space, extended, transforms};
 use eigenring_nonuniform::{Element, HybridNet, Net, Refinement, VertexElements, grid};
 use eigenring_surface::features::edge;
 use eigenring_surface::{Point3, Topology};
@@ -115,7 +116,7 @@ pub(crate) fn space(
             accepted: "a positive one",
         });
     }
-    let (mut cells, mut elements) = (Vec::new(), Vec::<Element>::new());
+    let (mut cells, mut elements) = (Cells::default(), Vec::<Element>::new());
     let mut known: BTreeMap<Vec<u64>, usize> = BTreeMap::new();
     for face in (0..coarse.face_count() as u32).filter(|&face| is_element(face)) {
         let Some((points, element)) = element(face)? else {
@@ -132,11 +133,7 @@ pub(crate) fn space(
         if place == next {
             elements.push(element);
         }
-        cells.push(Cell {
-            face,
-            kind: Kind::Element(place),
-            points,
-        });
+        cells.push(face, Kind::Element(place), &points);
     }
     let mut edges = Vec::new();
     for half in (0..coarse.half_count() as u32).filter(|&half| coarse.twin(half).is_none()) {

@@ -1,9 +1,10 @@
 //! Integrals over a face: matrices and loads by quadrature.
 
 use crate::Error;
+use crate::cells::Kind;
 use crate::geometry::{Geometry, Irregular};
 use crate::patch::{Control, Data, FUNCTIONS, Jets, Maps, Square, Wanted, products};
-use crate::space::{Kind, Space};
+use crate::space::Space;
 use crate::tables::{Patch, Table};
 use eigenring_spectral::Matrix;
 use rayon::prelude::*;
@@ -48,7 +49,7 @@ fn unknowns(space: &Space, points: &[u32], ids: &mut Vec<u32>) -> Option<Matrix<
 
 /// The control points of a face that its table uses, with where they are; coefficients are zero.
 pub(crate) fn points_of(space: &Space, table: &Table, face: usize) -> (Vec<u32>, Vec<Data>) {
-    let own = &space.cells[face].points;
+    let own = space.cells.points(face);
     let points: Vec<u32> = table.columns.iter().map(|&column| own[column]).collect();
     let data = |v: &u32| {
         let [x, y, z] = space.positions[*v as usize];

@@ -8,6 +8,7 @@
 mod around;
 mod assembly;
 mod boundary;
+mod cells;
 mod eigen;
 mod error;
 mod geometry;

@@ -8,6 +8,7 @@
 
 use crate::Error;
 use crate::around::Around;
+use crate::cells::{Cells, Kind};
 use crate::patch::Rule;
 use crate::sparse::Sparse;
 use crate::tables::{Known, Table, element, far, gauss};
@@ -24,25 +25,6 @@ pub enum Ends {
     Open,
     /// Ghosts are extrapolated: the second normal derivative in the parameter vanishes.
     Natural,
-}
-
-/// A face with its control points, in the order of its kind's table.
-#[derive(Debug)]
-pub(crate) struct Cell {
-    /// The number of the face in the mesh of the level.
-    pub face: u32,
-    pub kind: Kind,
-    /// The table's numbering of control points, as points of the mesh with ghosts.
-    pub points: Vec<u32>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Kind {
-    Far,
-    Near(usize, [i32; 2]),
-    Irregular(usize),
-    /// With knot intervals: an element of the space's list.
-    Element(usize),
 }
 
 /// How deep the annuli of an extraordinary vertex go.
@@ -71,7 +53,7 @@ pub(crate) struct Space {
     pub positions: Vec<[f64; 3]>,
     /// Whether all of it is in the plane z = 0, where orientation is told.
     pub planar: bool,
-    pub cells: Vec<Cell>,
+    pub cells: Cells,
     /// Control points without ghosts.
     pub inner: usize,
     /// Control points of the boundary.
@@ -274,7 +256,7 @@ impl Space {
         let valence: Vec<usize> = (0..inner as u32).map(|v| topology.fan(v).spokes.len()).collect();
         let special = |v: u32| (v as usize) < inner && valence[v as usize] != 4;
         let mut around = BTreeMap::new();
-        let mut cells = Vec::with_capacity(mesh.face_count());
+        let mut cells = Cells::default();
         for face in 0..mesh.face_count() as u32 {
             let halves = topology.face_halves(face);
             let mut centres = halves.clone().filter(|&half| special(topology.origin(half)));
@@ -289,11 +271,7 @@ impl Space {
                 if centres.next().is_some() || (tuned && (others || rim)) {
                     return Ok(None);
                 }
-                cells.push(Cell {
-                    face,
-                    kind: Kind::Irregular(n),
-                    points,
-                });
+                cells.push(face, Kind::Irregular(n), &points);
                 if let Entry::Vacant(entry) = around.entry(n) {
                     let scheme = rules.inner(None, n)?;
                     if !crate::accepts(&scheme)? {
@@ -303,17 +281,16 @@ impl Space {
                 }
                 continue;
             }
-            let grids: Option<Vec<[u32; 16]>> = halves.map(|half| grid(&topology, half)).collect();
-            let Some(grids) = grids else { return Ok(None) };
-            let count = grids[0].iter().filter(|&&v| special(v)).count();
+            let Some(first) = grid(&topology, halves.start) else {
+                return Ok(None);
+            };
+            let count = first.iter().filter(|&&v| special(v)).count();
             if !tuned || count == 0 {
-                cells.push(Cell {
-                    face,
-                    kind: Kind::Far,
-                    points: grids[0].to_vec(),
-                });
+                cells.push(face, Kind::Far, &first);
                 continue;
             }
+            let grids: Option<Vec<[u32; 16]>> = halves.map(|half| grid(&topology, half)).collect();
+            let Some(grids) = grids else { return Ok(None) };
             let beside = grids.iter().find_map(|grid| {
                 let places = [(4, [1, 0]), (0, [1, 1]), (1, [0, 1])];
                 places
@@ -324,11 +301,7 @@ impl Space {
             let Some((grid, v, at)) = beside.filter(|_| count == 1) else {
                 return Ok(None);
             };
-            cells.push(Cell {
-                face,
-                kind: Kind::Near(valence[v as usize], at),
-                points: grid.to_vec(),
-            });
+            cells.push(face, Kind::Near(valence[v as usize], at), grid);
         }
         let edges: Option<Vec<Edge>> = (0..coarse.half_count() as u32)
             .filter(|&half| coarse.twin(half).is_none())
@@ -374,7 +347,7 @@ impl Space {
         };
         let mut tables = BTreeMap::new();
         let mut known = Known::new(rule);
-        for cell in &self.cells {
+        for cell in self.cells.iter() {
             tables.entry(cell.kind).or_insert_with(|| match cell.kind {
                 Kind::Far => far(&known.uniform),
                 Kind::Near(n, at) => self.around[&n].near(&known.uniform, at),

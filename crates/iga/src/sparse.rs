@@ -28,8 +28,10 @@ const DISSECTED: usize = 20_000;
 /// Weights of rules are O(1), and where they cancel they leave rounding below this.
 const CANCELLED: f64 = 1e-14;
 
-/// Rows that are computed together.
+/// Rows of a block that are computed one after the other, and blocks that wait to be appended: a bound on
+/// memory.
 const ROWS: usize = 4096;
+const BLOCKS: usize = 32;
 
 impl Sparse {
     /// From rows whose columns ascend.
@@ -162,16 +164,22 @@ impl Sparse {
             (ends, columns, values)
         };
         let firsts: Vec<usize> = (0..height).step_by(ROWS).collect();
-        let blocks: Vec<_> = firsts.into_par_iter().map_init(scratch, block).collect();
-        let entries = blocks.iter().map(|(_, columns, _)| columns.len()).sum();
         let mut starts = Vec::with_capacity(height + 1);
         starts.push(0);
-        let (mut columns, mut values) = (Vec::with_capacity(entries), Vec::with_capacity(entries));
-        for (ends, own_columns, own_values) in blocks {
-            starts.extend(ends.into_iter().map(|end| columns.len() + end));
-            columns.extend(own_columns);
-            values.extend(own_values);
+        let (mut columns, mut values) = (Vec::new(), Vec::new());
+        for firsts in firsts.chunks(BLOCKS) {
+            let blocks: Vec<_> = firsts
+                .par_iter()
+                .map_init(&scratch, |scratch, &first| block(scratch, first))
+                .collect();
+            for (ends, own_columns, own_values) in blocks {
+                starts.extend(ends.into_iter().map(|end| columns.len() + end));
+                columns.extend(own_columns);
+                values.extend(own_values);
+            }
         }
+        columns.shrink_to_fit();
+        values.shrink_to_fit();
         Sparse {
             width,
             starts,
