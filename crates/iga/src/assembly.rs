@@ -7,21 +7,9 @@ use crate::space::Space;
 use crate::sparse::Sparse;
 use rayon::prelude::*;
 
-/// Bounds on memory.
-#[derive(Clone, Copy)]
-pub(crate) struct Bounds {
-    /// Parts that are made before it is asked whether they have to be added up.
-    pub parts: usize,
-    /// Entries with which they have.
-    pub entries: usize,
-}
-
-/// 10^6 regular faces are added up at once, with 0.8 GB; those of many extraordinary vertices of high valence
-/// are not, as each has the rows of all others of its vertex.
-const BOUNDS: Bounds = Bounds {
-    parts: 1024,
-    entries: 1 << 26,
-};
+/// Parts that are added up before others are made: the faces of an extraordinary vertex of high valence have
+/// all rows in common, and take much more memory in parts than in sum.
+const PARTS: usize = 128;
 /// Rows that are added up together.
 const ROWS: usize = 4096;
 
@@ -33,25 +21,29 @@ struct Places {
 }
 
 impl Places {
-    fn new(parts: &[Part], count: usize) -> Self {
-        let mut starts = vec![0; count + 1];
-        let ids = parts.iter().flat_map(|part| &part.ids);
-        ids.for_each(|&id| starts[id as usize + 1] += 1);
-        (0..count).for_each(|id| starts[id + 1] += starts[id]);
+    /// Of the unknowns with these numbers.
+    fn new(parts: &[Part], ids: &[u32], count: usize) -> Self {
+        let mut numbers = vec![0; count];
+        (0..).zip(ids).for_each(|(k, &id)| numbers[id as usize] = k);
+        let mut starts = vec![0; ids.len() + 1];
+        let all = parts.iter().flat_map(|part| &part.ids);
+        all.for_each(|&id| starts[numbers[id as usize] as usize + 1] += 1);
+        (0..ids.len()).for_each(|k| starts[k + 1] += starts[k]);
         let mut next = starts.clone();
-        let mut rows = vec![[0; 2]; starts[count] as usize];
-        for (number, part) in (0..).zip(parts) {
-            for (row, &id) in (0..).zip(&part.ids) {
-                rows[next[id as usize] as usize] = [number, row];
-                next[id as usize] += 1;
+        let mut rows = vec![[0; 2]; starts[ids.len()] as usize];
+        for (part, of_part) in (0..).zip(parts) {
+            for (row, &id) in (0..).zip(&of_part.ids) {
+                let next = &mut next[numbers[id as usize] as usize];
+                rows[*next as usize] = [part, row];
+                *next += 1;
             }
         }
         Places { starts, rows }
     }
 
     /// The rows of an unknown, in the order of the parts.
-    fn of<'a>(&'a self, parts: &'a [Part], id: usize) -> impl Iterator<Item = (&'a Part, usize)> + Clone {
-        let rows = &self.rows[self.starts[id] as usize..self.starts[id + 1] as usize];
+    fn of<'a>(&'a self, parts: &'a [Part], number: usize) -> impl Iterator<Item = (&'a Part, usize)> + Clone {
+        let rows = &self.rows[self.starts[number] as usize..self.starts[number + 1] as usize];
         rows.iter().map(|&[part, row]| (&parts[part as usize], row as usize))
     }
 }
@@ -72,11 +64,12 @@ fn union<'a>(rows: impl Iterator<Item = (&'a Part, usize)>, columns: &mut Vec<u3
     columns.dedup();
 }
 
-/// The sum of some parts, over all unknowns. Sums run in the order of the parts.
-fn added(parts: &[Part], count: usize, forms: usize) -> Part {
-    let places = Places::new(parts, count);
-    let size = |columns: &mut Vec<u32>, id: usize| {
-        let rows = places.of(parts, id);
+/// The sum of some parts over unknowns that ascend, theirs or more, out of all. Sums run in the order of the
+/// parts.
+fn added(parts: &[Part], ids: Vec<u32>, count: usize, forms: usize) -> Part {
+    let places = Places::new(parts, &ids, count);
+    let size = |columns: &mut Vec<u32>, number: usize| {
+        let rows = places.of(parts, number);
         match rows.clone().take(2).count() {
             0 | 1 => rows.map(|(part, row)| part.row(row).len()).sum(),
             _ => {
@@ -85,22 +78,23 @@ fn added(parts: &[Part], count: usize, forms: usize) -> Part {
             }
         }
     };
-    let sizes: Vec<usize> = (0..count)
+    let sizes: Vec<usize> = (0..ids.len())
         .into_par_iter()
         .with_min_len(ROWS)
         .map_init(Vec::new, size)
         .collect();
-    let mut starts = Vec::with_capacity(count + 1);
+    let mut starts = Vec::with_capacity(ids.len() + 1);
     starts.push(0);
     starts.extend(sizes.iter().scan(0, |end, size| {
         *end += size;
         Some(*end)
     }));
+    let entries = starts[ids.len()];
     let mut sum = Part {
-        ids: (0..count as u32).collect(),
-        columns: vec![0; starts[count]],
-        values: vec![vec![0.0; starts[count]]; forms],
-        load: vec![0.0; count],
+        columns: vec![0; entries],
+        values: (0..forms).map(|_| vec![0.0; entries]).collect(),
+        load: vec![0.0; ids.len()],
+        ids,
         starts,
     };
     let blocks = blocks(&mut sum);
@@ -144,8 +138,7 @@ impl Block<'_> {
     fn fill(&mut self, parts: &[Part], places: &Places) {
         let mut together = Vec::new();
         for row in 0..self.load.len() {
-            let id = self.first + row;
-            let rows = places.of(parts, id);
+            let rows = places.of(parts, self.first + row);
             let range = self.starts[row] - self.starts[0]..self.starts[row + 1] - self.starts[0];
             let columns = &mut self.columns[range.clone()];
             let alone = rows.clone().take(2).count() == 1;
@@ -176,29 +169,37 @@ impl Block<'_> {
     }
 }
 
-/// The matrices of some forms and the load, over all unknowns. Faces are put into parts whatever the number
-/// of threads, and parts are added up in their order, so that sums are the same for any number.
+/// The unknowns of some parts, ascending.
+fn unknowns(parts: &[Part], count: usize) -> Vec<u32> {
+    let mut is_used = vec![false; count];
+    let ids = parts.iter().flat_map(|part| &part.ids);
+    ids.for_each(|&id| is_used[id as usize] = true);
+    (0..count as u32).filter(|&id| is_used[id as usize]).collect()
+}
+
+/// The matrices of some forms and the load, over all unknowns. Faces are put into parts, and parts into
+/// groups, whatever the number of threads, and each adds up its own in their order, so that sums are the same
+/// for any number.
 pub(crate) fn assemble(
     space: &Space,
     tables: &Tables,
     forms: &[Form],
     load: Option<&Load<'_>>,
 ) -> Result<(Vec<Sparse>, Vec<f64>), Error> {
-    assemble_within(BOUNDS, space, tables, Integrands { forms, load })
+    assemble_by(PARTS, space, tables, Integrands { forms, load })
 }
 
-/// The same with other bounds, which make no difference to the sums.
-pub(crate) fn assemble_within(
-    bounds: Bounds,
+/// The same in groups of so many parts.
+pub(crate) fn assemble_by(
+    group: usize,
     space: &Space,
     tables: &Tables,
     integrands: Integrands<'_>,
 ) -> Result<(Vec<Sparse>, Vec<f64>), Error> {
     let (count, forms) = (space.positions.len(), integrands.forms);
-    let mut parts: Vec<Part> = Vec::new();
-    let mut most = bounds.entries;
-    for ranges in ranges(space, tables).chunks(bounds.parts) {
-        let done: Vec<Result<Part, Error>> = ranges
+    let mut groups: Vec<Part> = Vec::new();
+    for ranges in ranges(space, tables).chunks(group) {
+        let parts: Vec<Result<Part, Error>> = ranges
             .par_iter()
             .map_init(
                 || Workplace::new(space, forms),
@@ -206,23 +207,22 @@ pub(crate) fn assemble_within(
             )
             .collect();
         // the first of all errors, whichever thread came first
-        for part in done {
-            parts.push(part?);
-        }
-        if parts.iter().map(|part| part.columns.len()).sum::<usize>() > most {
-            parts = vec![added(&parts, count, forms.len())];
-            // the sum is copied no oftener than new entries are added
-            most = bounds.entries.max(2 * parts[0].columns.len());
-        }
+        let parts: Vec<Part> = parts.into_iter().collect::<Result<_, _>>()?;
+        let ids = unknowns(&parts, count);
+        groups.push(added(&parts, ids, count, forms.len()));
     }
+    let sum = match &groups[..] {
+        [one] if one.ids.len() == count => groups.remove(0),
+        _ => added(&groups, (0..count as u32).collect(), count, forms.len()),
+    };
+    drop(groups);
     let Part {
         starts,
         columns,
         values,
         load,
         ..
-    } = added(&parts, count, forms.len());
-    drop(parts);
+    } = sum;
     let matrices = std::iter::repeat_n((starts, columns), values.len()).zip(values);
     let matrix = |((starts, columns), values)| Sparse {
         width: count,

@@ -3,11 +3,11 @@
 
 use crate::Error;
 use crate::around::Around;
-use crate::assembly::{Bounds, assemble, assemble_within};
+use crate::assembly::{assemble, assemble_by};
 use crate::boundary::nitsche;
 use crate::geometry::Geometry;
 use crate::hybrid;
-use crate::integrals::{Form, Integrands, Load};
+use crate::integrals::{Form, Integrands, Load, Local, Room};
 use crate::multigrid::Multigrid;
 use crate::nested::{embedding, refinement};
 use crate::norms::errors;
@@ -227,32 +227,56 @@ fn a_point_that_a_face_has_twice_counts_twice() {
     assert!((norms[0] / norms[1] - 1.0).abs() < 1e-6, "{norms:?}");
 }
 
-/// Whatever the bounds on memory, the bits are the same.
+/// In whatever groups, sums are those over the faces one by one.
 #[test]
-fn parts_may_be_added_up_early() {
+fn parts_add_up_to_the_sum_over_faces() {
     let rules = rules("lambda:lambda=0.39");
     let mut mesh = shapes::fan(12);
     (0..3).for_each(|_| mesh = refined(&mesh, &rules));
     let space = space(&mesh, &rules, Ends::Open);
+    assert!(space.cells.len() > 3000);
     let tables = space.tables(4, Depth::Area, false);
     let forms = [Form::Mass, Form::Stiffness];
-    let of = |parts, entries| {
-        let integrands = Integrands {
-            forms: &forms,
-            load: Some(&|at: &Geometry| at.x[0]),
-        };
-        let bounds = Bounds { parts, entries };
-        let (matrices, load) = assemble_within(bounds, &space, &tables, integrands).expect("matrices");
-        let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
-        let all = matrices
-            .iter()
-            .map(|m| (m.starts.clone(), m.columns.clone(), bits(&m.values)));
-        (all.collect::<Vec<_>>(), bits(&load))
+    let integrands = Integrands {
+        forms: &forms,
+        load: Some(&|at: &Geometry| at.x[0]),
     };
-    assert!(space.cells.len() > 3000);
-    let at_once = of(100, usize::MAX);
-    assert!(of(1, 0) == at_once);
-    assert!(of(2, 100_000) == at_once);
+    let mut entries = vec![BTreeMap::<(u32, u32), f64>::new(); 2];
+    let mut right = vec![0.0; space.positions.len()];
+    let (mut room, mut local) = (Room::default(), Local::default());
+    for face in 0..space.cells.len() {
+        integrands
+            .local(&space, &tables, face, &mut room, &mut local)
+            .expect("a regular map");
+        let width = local.ids.len();
+        for (i, &row) in local.ids.iter().enumerate() {
+            right[row as usize] += local.sums.load[i];
+            for (j, &column) in local.ids.iter().enumerate() {
+                for (entries, matrix) in entries.iter_mut().zip(&local.sums.matrices) {
+                    *entries.entry((row, column)).or_default() += matrix[i * width + j];
+                }
+            }
+        }
+    }
+    for group in [1, 2, 100] {
+        let (matrices, load) = assemble_by(group, &space, &tables, integrands).expect("matrices");
+        let close = |a: f64, b: f64| (a - b).abs() < 1e-14;
+        assert!(load.iter().zip(&right).all(|(a, b)| close(*a, *b)));
+        for (matrix, entries) in matrices.iter().zip(&entries) {
+            assert_eq!(matrix.columns.len(), entries.len());
+            let rows = (0..matrix.height() as u32).flat_map(|row| {
+                matrix
+                    .row(row as usize)
+                    .map(move |(column, value)| ((row, column as u32), value))
+            });
+            for ((at, value), (place, expected)) in rows.zip(entries) {
+                assert!(
+                    at == *place && close(value, *expected),
+                    "{at:?}: {value} for {expected}"
+                );
+            }
+        }
+    }
 }
 
 /// Nitsche's form is as well conditioned as the others, and what the two solvers leave is rounding and the
