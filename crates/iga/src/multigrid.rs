@@ -10,7 +10,7 @@ use crate::sparse::{Factor, Numbering, Sparse};
 /// The residual over the one at the start at which the iteration ends, in the Euclidean norm and in that of
 /// the cycle, which is near the energy of the error. With 1e-10 the algebra's error shows beside that of 10^6
 /// unknowns.
-const GOAL: f64 = 1e-12;
+const GOAL: f64 = 1e-10;
 /// Some three times as many as any of our problems took.
 const MOST: usize = 200;
 

@@ -177,8 +177,143 @@ pub(crate) fn coefficients(space: &Space, values: &[f64]) -> Vec<f64> {
     space.transform.times(values)
 }
 
+/// Equations over all unknowns of a space.
+struct System {
+    matrix: Sparse,
+    right: Vec<f64>,
+    /// Of the unknowns that the boundary's data prescribe; zero for the others.
+    prescribed: Vec<f64>,
+}
+
+impl Problem {
+    fn essential(self, options: &Options) -> bool {
+        match self {
+            Problem::Biharmonic => true,
+            Problem::Poisson => options.dirichlet == Dirichlet::Projection,
+            Problem::Neumann | Problem::L2 | Problem::LaplaceBeltrami => false,
+        }
+    }
+
+    /// Whether constants are free.
+    fn singular(self) -> bool {
+        self == Problem::Neumann
+    }
+
+    /// Which unknowns data on the boundary prescribe.
+    fn held(self, space: &Space, options: &Options) -> Vec<bool> {
+        match self.essential(options) {
+            true => fixed(space, options.ends, self == Problem::Biharmonic),
+            false => vec![false; space.positions.len()],
+        }
+    }
+
+    /// Those that the equations leave.
+    fn free(self, space: &Space, options: &Options) -> Numbering {
+        let held = self.held(space, options);
+        let free = used(space, options.ends).into_iter().zip(held);
+        Numbering::new(&free.map(|(used, held)| used && !held).collect::<Vec<_>>())
+    }
+
+    fn system(self, space: &Space, u: &Solution, options: &Options, tables: &Tables) -> Result<System, Error> {
+        let forms: &[Form] = match self {
+            Problem::Poisson | Problem::Neumann => &[Form::Stiffness],
+            Problem::L2 => &[Form::Mass],
+            Problem::Biharmonic => &[Form::Plate],
+            Problem::LaplaceBeltrami => &[Form::Stiffness, Form::Mass],
+        };
+        let load: &Load<'_> = &|at| right_hand_side(self, u, at);
+        let (mut matrices, mut right) = assemble(space, tables, forms, Some(load))?;
+        let mut matrix = matrices.swap_remove(0);
+        for other in matrices {
+            matrix.values.iter_mut().zip(&other.values).for_each(|(a, b)| *a += b);
+        }
+        let mut prescribed = vec![0.0; right.len()];
+        if self.essential(options) {
+            prescribed = boundary::projected(space, &self.held(space, options), self == Problem::Biharmonic, u)?;
+        } else if self == Problem::Poisson {
+            boundary::nitsche(space, &mut matrix, &mut right, u);
+        }
+        if self == Problem::Neumann {
+            boundary::flux(space, &mut right, u);
+            balance(space, tables, &mut right)?;
+        }
+        Ok(System {
+            matrix,
+            right,
+            prescribed,
+        })
+    }
+
+    /// The solution by a factor: values of all unknowns.
+    fn factored(self, system: System, space: &Space, options: &Options) -> Result<Vec<f64>, Error> {
+        let System {
+            matrix,
+            mut right,
+            prescribed: mut values,
+        } = system;
+        subtract(&mut right, &matrix.times(&values));
+        let mut unknowns = self.free(space, options);
+        if self.singular() {
+            // the mean is set afterwards
+            unknowns = unknowns.without_first();
+        }
+        let part = matrix.part(&unknowns, &unknowns);
+        drop(matrix);
+        let factor = part.factor(Some(&unknowns.gather(&space.positions)))?;
+        unknowns.add(&factor.solve(&unknowns.gather(&right)), &mut values);
+        Ok(values)
+    }
+
+    /// The same by multigrid, with the number of iterations. It starts from the solution of the coarsest space
+    /// with the boundary's data of the finest: from zero inside, those data would be most of the residual, and
+    /// what it has to be reduced to would be large beside the error of fine spaces.
+    fn iterated(
+        self,
+        system: System,
+        space: &Space,
+        u: &Solution,
+        options: &Options,
+        coarser: &[(Sparse, Space)],
+    ) -> Result<(Vec<f64>, usize), Error> {
+        let System {
+            matrix,
+            mut right,
+            prescribed: mut values,
+        } = system;
+        if let Some((_, coarsest)) = coarser.first() {
+            let tables = tables(coarsest, options, self == Problem::Biharmonic)?;
+            let system = self.system(coarsest, u, options, &tables)?;
+            let mut start = self.factored(system, coarsest, options)?;
+            for (up, _) in coarser {
+                start = up.times(&start);
+            }
+            let held = self.held(space, options);
+            let of_inside = values.iter_mut().zip(start).zip(held);
+            of_inside
+                .filter(|(_, held)| !held)
+                .for_each(|((value, start), _)| *value = start);
+        }
+        subtract(&mut right, &matrix.times(&values));
+        let unknowns = self.free(space, options);
+        let part = matrix.part(&unknowns, &unknowns);
+        drop(matrix);
+        let numberings: Vec<Numbering> = coarser.iter().map(|(_, space)| self.free(space, options)).collect();
+        let finer = numberings.iter().skip(1).chain([&unknowns]);
+        let embeddings = coarser.iter().zip(&numberings).zip(finer);
+        let embeddings = embeddings.map(|(((up, _), from), to)| up.part(to, from)).collect();
+        let cycle = Multigrid::new(part, embeddings, self.singular())?;
+        let (correction, iterations) = cycle.solve(&unknowns.gather(&right))?;
+        unknowns.add(&correction, &mut values);
+        Ok((values, iterations))
+    }
+}
+
+fn subtract(from: &mut [f64], what: &[f64]) {
+    from.iter_mut().zip(what).for_each(|(a, b)| *a -= b);
+}
+
 /// Solves a problem in a space and measures the error. `embeddings` are those of the coarser spaces, coarsest
-/// first, over all unknowns, with which of them are free.
+/// first, over all unknowns.
 pub(crate) fn run(
     space: &Space,
     problem: Problem,
@@ -195,87 +330,21 @@ pub(crate) fn run(
     }
     let start = Instant::now();
     let tables = tables(space, options, plate)?;
-    let forms: &[Form] = match problem {
-        Problem::Poisson | Problem::Neumann => &[Form::Stiffness],
-        Problem::L2 => &[Form::Mass],
-        Problem::Biharmonic => &[Form::Plate],
-        Problem::LaplaceBeltrami => &[Form::Stiffness, Form::Mass],
-    };
-    let load: &Load<'_> = &|at| right_hand_side(problem, u, at);
-    let (mut matrices, mut right) = assemble(space, &tables, forms, Some(load))?;
-    let mut matrix = matrices.swap_remove(0);
-    for other in matrices {
-        matrix.values.iter_mut().zip(&other.values).for_each(|(a, b)| *a += b);
-    }
-    let used = used(space, options.ends);
-    let nitsche = problem == Problem::Poisson && options.dirichlet == Dirichlet::Nitsche;
-    let essential = plate || problem == Problem::Poisson && !nitsche;
-    let held = |space: &Space| match essential {
-        true => fixed(space, options.ends, plate),
-        false => vec![false; space.positions.len()],
-    };
-    let fixed = held(space);
-    let mut values = vec![0.0; used.len()];
-    if nitsche {
-        boundary::nitsche(space, &mut matrix, &mut right, u);
-    }
-    if problem == Problem::Neumann {
-        boundary::flux(space, &mut right, u);
-        balance(space, &tables, &mut right)?;
-    }
-    if essential {
-        values = boundary::projected(space, &fixed, plate, u)?;
-        let known = matrix.times(&values);
-        right.iter_mut().zip(known).for_each(|(b, known)| *b -= known);
-    }
+    let system = problem.system(space, u, options, &tables)?;
     let assembled = start.elapsed().as_secs_f64();
-    let dof = used.iter().filter(|used| **used).count();
-    let singular = problem == Problem::Neumann;
+    let dof = used(space, options.ends).iter().filter(|used| **used).count();
     let solver = options.solver.unwrap_or(default_solver(dof));
-    let free = |space: &Space| -> Numbering {
-        let held = held(space);
-        let used = self::used(space, options.ends);
-        Numbering::new(
-            &used
-                .iter()
-                .zip(&held)
-                .map(|(used, held)| *used && !held)
-                .collect::<Vec<_>>(),
-        )
-    };
-    let mut unknowns = free(space);
-    let (solution, iterations) = match solver {
-        Solver::Cholesky => {
-            if singular {
-                // constants are free: the mean is set afterwards
-                unknowns = unknowns.without_first();
-            }
-            let part = matrix.part(&unknowns, &unknowns);
-            drop(matrix);
-            let factor = part.factor(Some(&unknowns.gather(&space.positions)))?;
-            (factor.solve(&unknowns.gather(&right)), None)
-        }
+    let (values, iterations) = match solver {
+        Solver::Cholesky => (problem.factored(system, space, options)?, None),
         Solver::Multigrid => {
-            let part = matrix.part(&unknowns, &unknowns);
-            drop(matrix);
-            let embeddings = embeddings()?;
-            let coarse: Vec<Numbering> = embeddings.iter().map(|(_, space)| free(space)).collect();
-            let finer = coarse.iter().skip(1).chain([&unknowns]);
-            let parts = embeddings.iter().zip(&coarse).zip(finer);
-            let parts = parts.map(|(((up, _), from), to)| up.part(to, from)).collect();
-            let (solution, iterations) = Multigrid::new(part, parts, singular)?.solve(&unknowns.gather(&right))?;
-            (solution, Some(iterations))
+            let (values, iterations) = problem.iterated(system, space, u, options, &embeddings()?)?;
+            (values, Some(iterations))
         }
     };
-    unknowns
-        .list
-        .iter()
-        .zip(solution)
-        .for_each(|(&i, value)| values[i] = value);
     let solved = start.elapsed().as_secs_f64();
     let measures = measure(space);
     let mut coefficients = coefficients(space, &values);
-    if singular {
+    if problem.singular() {
         let constant = mean_error(space, &measures, &coefficients, u)?;
         coefficients.iter_mut().for_each(|c| *c += constant);
     }

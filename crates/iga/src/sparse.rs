@@ -328,6 +328,11 @@ impl Numbering {
         Numbering::new(&free)
     }
 
+    /// Adds values of these unknowns to those of all.
+    pub fn add(&self, values: &[f64], all: &mut [f64]) {
+        self.list.iter().zip(values).for_each(|(&i, value)| all[i] += value);
+    }
+
     pub fn gather<T: Copy>(&self, all: &[T]) -> Vec<T> {
         self.list.iter().map(|&i| all[i]).collect()
     }
