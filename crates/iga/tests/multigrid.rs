@@ -22,7 +22,7 @@ fn difference(a: &Outcome, b: &Outcome) -> f64 {
     pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs())) / largest
 }
 
-/// The iteration ends at 1e-12; 14 to 19 led a prototype to 1e-10.
+/// 14 to 19 led a prototype to 1e-10.
 #[test]
 fn few_iterations_give_the_solution_of_the_factor() {
     let schemes = [
@@ -43,6 +43,42 @@ fn few_iterations_give_the_solution_of_the_factor() {
     }
 }
 
+/// Faces are six times as long as wide around the vertex of this case, the worst of all: more iterations the
+/// finer the space, though slowly.
+#[test]
+fn narrow_faces_take_more_iterations() {
+    let options = Options::default();
+    let of = |level| {
+        solved(
+            12,
+            "lambda:lambda=0.25",
+            level,
+            Problem::Poisson,
+            options,
+            Solver::Multigrid,
+        )
+        .iterations
+    };
+    let all: Vec<usize> = (1..6).filter_map(of).collect();
+    assert!(all.len() == 5 && all.is_sorted() && all[4] <= 20, "{all:?}");
+}
+
+/// From zero inside, data on the boundary would be most of the first residual; 5e-9 is left in H2 if it is
+/// reduced to 1e-12 of that.
+#[test]
+fn linear_functions_are_reproduced_to_rounding() {
+    let (rules, u) = (rules("catmull-clark"), solution::named("lin").expect("a solution"));
+    let study = Study::new(&shapes::fan(3), &rules, Domain::Planar).expect("a study");
+    let options = Options {
+        solver: Some(Solver::Multigrid),
+        ..Options::default()
+    };
+    let run = study.level(5, Problem::Poisson, &u, &options).expect("an outcome");
+    let error = run.error;
+    assert!(error.l2 < 1e-14 && error.h1 < 1e-12 && error.h2 < 1e-10, "{error:?}");
+    assert!(run.iterations <= Some(20), "{run:?}");
+}
+
 #[test]
 fn all_problems_have_nested_spaces() {
     for (problem, options) in [
@@ -54,7 +90,7 @@ fn all_problems_have_nested_spaces() {
         let cycle = solved(5, "lambda:lambda=0.39", 2, problem, options, Solver::Multigrid);
         let factor = solved(5, "lambda:lambda=0.39", 2, problem, options, Solver::Cholesky);
         assert!(
-            cycle.iterations <= Some(28),
+            cycle.iterations <= Some(20),
             "{problem:?}, {options:?}: {:?}",
             cycle.iterations
         );
