@@ -103,13 +103,24 @@ impl Multigrid {
         x
     }
 
-    /// The solution and the number of iterations.
+    /// What the coarsest space has of a solution.
+    fn coarsest(&self, right: &[f64]) -> Vec<f64> {
+        let below = self
+            .levels
+            .iter()
+            .rev()
+            .fold(right.to_vec(), |rest, level| level.down.times(&rest));
+        let solution = self.cycle(0, &below);
+        self.levels.iter().fold(solution, |x, level| level.up.times(&x))
+    }
+
+    /// The solution and the number of iterations, which start from the solution of the coarsest space.
     pub fn solve(&self, right: &[f64], goals: Goals) -> Result<(Vec<f64>, usize), Error> {
         let Some(Level { matrix, .. }) = self.levels.last() else {
             return Ok((self.cycle(0, right), 0));
         };
-        let mut x = vec![0.0; right.len()];
-        let mut rest = right.to_vec();
+        let mut x = self.coarsest(right);
+        let mut rest: Vec<f64> = right.iter().zip(matrix.times(&x)).map(|(b, ax)| b - ax).collect();
         let start = norm(&rest);
         let goal = goals.residual.min(goals.reduction * start);
         let (mut direction, mut before, mut first) = (Vec::new(), 1.0, 0.0);

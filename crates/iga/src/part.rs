@@ -35,7 +35,9 @@ pub(crate) fn ranges(space: &Space, tables: &Tables) -> Vec<Range<usize>> {
         }
         entries += own;
     }
-    ranges.push(first..space.cells.len());
+    if first < space.cells.len() {
+        ranges.push(first..space.cells.len());
+    }
     ranges
 }
 
