@@ -173,8 +173,12 @@ fn prepared<'a>(
     if study.steps > 0 {
         progress.note(&match basis {
             Basis::Rules(_) => format!(
-                "{} Catmull-Clark steps come first: they separate extraordinary vertices",
-                study.steps
+                "{} first, so that extraordinary vertices and corners are apart",
+                if study.steps == 1 {
+                    "a step of Catmull-Clark comes".to_owned()
+                } else {
+                    format!("{} steps of Catmull-Clark come", study.steps)
+                }
             ),
             Basis::Intervals(scheme, _) => format!(
                 "level 0 is the net after {} of {scheme}: from then on rules at extraordinary vertices do not change",
