@@ -218,6 +218,11 @@ fn grids_become_meshes() {
         ("make tensor vase.csv -o out.obj", "i, j, x, y, z"),
         ("make star --noise nan -o out.obj", "noise"),
         ("make cube --rings 3 -o out.obj", "--rings"),
+        ("make cube --warp 0.1 -o out.obj", "fan and square3355"),
+        ("make fan --split 0 -o out.obj", "1 to 447"),
+        ("make fan -n 10000 --split 11 -o out.obj", "1 to 10"),
+        ("make square3355 --split 1000 -o out.obj", "1 to 288"),
+        ("make fan --warp inf -o out.obj", "warp"),
         ("make cube", "--out"),
     ] {
         let arguments: Vec<&str> = line.split_whitespace().collect();
@@ -226,6 +231,29 @@ fn grids_become_meshes() {
         assert!(run.stderr.contains(needle), "{line}: {}", run.stderr);
         assert!(!place.path().join("out.obj").exists(), "{line}");
     }
+    // nine quads of a face, and curved lines
+    place.ok(&[
+        "make", "fan", "-N", "6", "--split", "3", "--warp", "0.08", "-o", "fan.obj",
+    ]);
+    let text = std::fs::read_to_string(place.path().join("fan.obj")).unwrap();
+    let vertices: Vec<&str> = text.lines().filter(|line| line.starts_with("v ")).collect();
+    assert_eq!(
+        (
+            vertices.len(),
+            text.lines().filter(|line| line.starts_with("f ")).count()
+        ),
+        (73, 54)
+    );
+    let middle: Vec<f64> = vertices[0]
+        .split_whitespace()
+        .skip(1)
+        .map(|x| x.parse().unwrap())
+        .collect();
+    let expected = [0.3 + 0.08 * 1.8_f64.sin(), 0.4 + 0.08 * 0.4_f64.sin(), 0.0];
+    assert!(
+        middle.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15),
+        "{middle:?}"
+    );
     // noise is the same for the same seed, and other for another
     let made = |seed: &str| {
         place.ok(&[

@@ -3,18 +3,14 @@
 use eigenring_iga::{Dirichlet, Domain, Ends, Options, Study};
 use eigenring_nonuniform::{FirstLevel, Outside, Scheme};
 use eigenring_scheme::{Definition, Spec};
-use eigenring_surface::{Mesh, Point3, Rules};
+use eigenring_surface::{Mesh, Point3, Rules, shapes};
 
 pub fn rules(name: &str) -> Rules {
     Rules::new(Definition::Family(name.parse::<Spec>().expect("a scheme")))
 }
 
-pub fn warped(mut mesh: Mesh) -> Mesh {
-    for p in mesh.points_mut() {
-        let (x, y) = (p.x, p.y);
-        *p = Point3::new(x + 0.08 * (2.0 * y + 1.0).sin(), y + 0.08 * (3.0 * x - 0.5).sin(), 0.0);
-    }
-    mesh
+pub fn warped(mesh: Mesh) -> Mesh {
+    shapes::warped(mesh, 0.08)
 }
 
 /// Unit squares of n x n faces, the corner of each given.

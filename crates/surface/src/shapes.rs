@@ -299,7 +299,7 @@ pub fn helmet() -> Mesh {
     made.without_unused()
 }
 
-/// The middle of three points' quads: split `n x n`, bilinearly.
+/// Quads split `n x n`, bilinearly. Vertices keep their numbers.
 fn split(coarse: &Mesh, n: usize) -> Mesh {
     let mut numbers: BTreeMap<Vec<(u32, usize)>, u32> = BTreeMap::new();
     let (mut points, mut faces) = (Vec::new(), Vec::new());
@@ -323,6 +323,11 @@ fn split(coarse: &Mesh, n: usize) -> Mesh {
 
 /// A regular n-gon of circumradius 1 around (0.3, 0.4), of n quads around its middle, each split in four.
 pub fn fan(n: usize) -> Mesh {
+    split_fan(n, 2)
+}
+
+/// The same, each quad split `parts x parts`.
+pub fn split_fan(n: usize, parts: usize) -> Mesh {
     let centre = nalgebra::Vector3::new(0.3, 0.4, 0.0);
     let corner = |i: usize| on_circle(1.0, (i as f64 + 0.5) / n as f64, 0.0) + centre;
     let mut points = vec![Point3::from(centre)];
@@ -332,7 +337,7 @@ pub fn fan(n: usize) -> Mesh {
     let middle = |i: usize| (1 + n + i % n) as u32;
     split(
         &mesh(points, (0..n).map(|i| vec![0, middle(i), at(i), middle(i + 1)])),
-        2,
+        parts,
     )
 }
 
@@ -353,6 +358,11 @@ pub fn uneven_fan(n: usize, intervals: &[f64]) -> Mesh {
 /// The unit square with inner vertices of valence 5, 3, 5, 3: a 4 x 3 grid with one edge turned, inner
 /// vertices moved to the mean of their neighbours, each face split 4 x 4.
 pub fn square3355() -> Mesh {
+    split_square3355(4)
+}
+
+/// The same, each face split `parts x parts`.
+pub fn split_square3355(parts: usize) -> Mesh {
     let at = |i: u32, j: u32| j * 5 + i;
     let points = (0..4).flat_map(|j| (0..5).map(move |i| Point3::new(f64::from(i) / 4.0, f64::from(j) / 3.0, 0.0)));
     let mut faces: Vec<Vec<u32>> = Vec::new();
@@ -381,7 +391,17 @@ pub fn square3355() -> Mesh {
             }
         }
     }
-    split(&coarse, 4)
+    split(&coarse, parts)
+}
+
+/// A planar mesh with curved lines: each vertex is moved by `size (sin(2y + 1), sin(3x - 1/2))`.
+pub fn warped(mut mesh: Mesh, size: f64) -> Mesh {
+    for p in mesh.points_mut() {
+        let [x, y] = [p.x, p.y];
+        p.x += size * (2.0 * y + 1.0).sin();
+        p.y += size * (3.0 * x - 0.5).sin();
+    }
+    mesh
 }
 
 #[cfg(test)]

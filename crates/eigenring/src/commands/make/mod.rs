@@ -21,7 +21,7 @@ use std::process::ExitCode;
 #[command(
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true,
-    after_help = "Examples:\n  eigenring make torus -o torus.obj\n  eigenring make star -n 7 --kind saddle --noise 0.1 --seed 3 -o star7.obj\n  eigenring make revolve sphere --levels 3 -o sphere.obj"
+    after_help = "Examples:\n  eigenring make torus -o torus.obj\n  eigenring make star -n 7 --kind saddle --noise 0.1 --seed 3 -o star7.obj\n  eigenring make fan -n 6 --split 3 --warp 0.08 -o fan6.obj\n  eigenring make revolve sphere --levels 3 -o sphere.obj"
 )]
 pub struct Arguments {
     #[command(subcommand)]
@@ -38,6 +38,12 @@ pub struct Arguments {
     /// How a star is curved; by default convex
     #[arg(long, value_enum, value_name = "KIND")]
     kind: Option<KindArg>,
+    /// Parts in each direction that a quad of fan or square3355 is split into; by default 2 and 4
+    #[arg(long, value_name = "PARTS", value_parser = args::count, allow_negative_numbers = true)]
+    split: Option<usize>,
+    /// Move each vertex of fan or square3355 by so much times (sin(2y+1), sin(3x-1/2))
+    #[arg(long, value_name = "SIZE", value_parser = args::finite, allow_negative_numbers = true)]
+    warp: Option<f64>,
     /// Move each coordinate at random, by at most so much
     #[arg(long, value_name = "SIZE", value_parser = args::finite, allow_negative_numbers = true)]
     noise: Option<f64>,
@@ -96,6 +102,8 @@ enum Shape {
 
 /// More sectors make no better example.
 const MOST: usize = 10_000;
+/// More are a matter of refinement.
+const MOST_QUADS: usize = 1_000_000;
 
 impl Arguments {
     pub fn run(self) -> Result<ExitCode, Error> {
@@ -109,6 +117,9 @@ impl Arguments {
                 };
                 meshes::written_format(out)?;
                 let mut mesh = self.mesh(shape)?;
+                if let Some(size) = self.warp {
+                    mesh = shapes::warped(mesh, size);
+                }
                 if let Some(size) = self.noise {
                     mesh = shapes::disturbed(mesh, size, self.seed);
                 }
@@ -141,6 +152,20 @@ impl Arguments {
                 "--rings and --kind with star",
             ));
         }
+        let is_planar = matches!(shape, Shape::Fan | Shape::Square3355);
+        if !is_planar && (self.split.is_some() || self.warp.is_some()) {
+            return Err(Error::usage(
+                "this shape is neither split nor warped",
+                "--split and --warp with fan and square3355",
+            ));
+        }
+        let parts = |default: usize, quads: usize| {
+            let most = (MOST_QUADS / quads).isqrt();
+            match self.split.unwrap_or(default) {
+                parts if (1..=most).contains(&parts) => Ok(parts),
+                parts => Err(Error::range("split", parts, format!("1 to {most}"))),
+            }
+        };
         match shape {
             Shape::Cube => without(shapes::cube()),
             Shape::Tetrahedron => without(shapes::tetrahedron()),
@@ -158,10 +183,10 @@ impl Arguments {
             Shape::TripleTorus => without(shapes::triple_torus()),
             Shape::Propeller => Ok(shapes::propeller(count(3, 3)?)),
             Shape::Gear => Ok(shapes::gear(count(8, 3)?)),
-            Shape::Fan => Ok(shapes::fan(count(5, 3)?)),
+            Shape::Fan => count(5, 3).and_then(|n| Ok(shapes::split_fan(n, parts(2, n)?))),
             Shape::Ring => without(shapes::ring()),
             Shape::Helmet => without(shapes::helmet()),
-            Shape::Square3355 => without(shapes::square3355()),
+            Shape::Square3355 => without(shapes::split_square3355(parts(4, 12)?)),
         }
     }
 }
