@@ -6,7 +6,7 @@
 //! orthogonal to what was found, looks for what was missed, until there is nothing.
 
 use crate::Error;
-use crate::sparse::{Factor, Sparse};
+use crate::sparse::{Factor, Sparse, dot};
 use faer::{Mat, Side};
 
 /// Columns of a block.
@@ -19,10 +19,6 @@ const ROUNDING: f64 = 1e-13;
 const MOST: usize = 150;
 
 type Vector = Vec<f64>;
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
 
 /// Vectors that are orthonormal in M, with their images under M.
 #[derive(Default)]

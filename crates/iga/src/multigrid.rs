@@ -5,7 +5,7 @@
 //! the control mesh, whose system is factored.
 
 use crate::Error;
-use crate::sparse::{Factor, Numbering, Sparse};
+use crate::sparse::{Factor, Numbering, Sparse, dot, norm};
 
 /// Where the iteration ends.
 #[derive(Clone, Copy)]
@@ -37,14 +37,6 @@ pub(crate) struct Multigrid {
     /// The unknowns of the coarsest level that its factor has.
     used: Numbering,
     coarse_size: usize,
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-pub(crate) fn norm(a: &[f64]) -> f64 {
-    dot(a, a).sqrt()
 }
 
 /// An overrelaxed sweep of Gauss and Seidel.

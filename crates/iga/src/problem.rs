@@ -4,11 +4,11 @@ use crate::around::Around;
 use crate::assembly::assemble;
 use crate::geometry::Geometry;
 use crate::integrals::{Form, Load, Tables, loads};
-use crate::multigrid::{Goals, Multigrid, norm};
+use crate::multigrid::{Goals, Multigrid};
 use crate::norms::{Norms, errors};
 use crate::solution::Solution;
 use crate::space::{Depth, Ends, Space};
-use crate::sparse::{Numbering, Sparse};
+use crate::sparse::{Numbering, Sparse, norm};
 use crate::{Error, MOST_ANNULI, boundary};
 use std::time::Instant;
 

@@ -22,6 +22,14 @@ pub(crate) struct Sparse {
     pub values: Vec<f64>,
 }
 
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+pub(crate) fn norm(a: &[f64]) -> f64 {
+    dot(a, a).sqrt()
+}
+
 /// Unknowns from which on an order by places is tried: with fewer, factors of both take the same time.
 const DISSECTED: usize = 20_000;
 

@@ -322,7 +322,7 @@ impl<'a> Study<'a> {
 
     /// About how many bytes a level takes, with as many eigenvalues, or for the solution of a problem.
     /// Without the factor some 2300 a face at 10^6 faces: mesh, space, matrix, a copy of it without held
-    /// unknowns, or the coarser ones; 1100 remain beside a factor. Factors have 20 to 26 n log2 n entries
+    /// unknowns, or the coarser ones; 1300 remain beside a factor. Factors have 20 to 26 n log2 n entries
     /// (squares, fans and a cube of 10^5 to 10^6 unknowns), for which 30 are counted. Tables of solution and
     /// errors have, of each annulus at an extraordinary vertex, two matrices of 45 control points over the
     /// `2N + 8` of a face.
@@ -338,7 +338,7 @@ impl<'a> Study<'a> {
             (None, Levels::Uniform(..)) => options.solver.unwrap_or(default_solver(faces as usize)),
         };
         let one = match solver {
-            Solver::Cholesky => f64::max(1100.0 + 8.0 * 30.0 * faces.log2().max(1.0), 2300.0),
+            Solver::Cholesky => f64::max(1300.0 + 8.0 * 30.0 * faces.log2().max(1.0), 2300.0),
             Solver::Multigrid => 2300.0,
         };
         // four more matrices, and two vectors for each direction of Lanczos' basis
